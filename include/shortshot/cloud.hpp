@@ -1,0 +1,137 @@
+// shortshot/cloud.hpp: the only door for point clouds. A CloudView borrows the user's own memory, whatever its layout.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "config.hpp"
+#include "math.hpp"
+#include "status.hpp"
+
+namespace shortshot {
+
+/// Three float coordinates per point: where each one of point 0 lies, and how far it is to the same one of point 1.
+/// Covers x y z x y z ..., arrays of structs with padding, and separate x, y, z arrays. No alignment is assumed.
+struct Float3Channel {
+  const unsigned char* x;
+  const unsigned char* y;
+  const unsigned char* z;
+  std::size_t stride_bytes;
+};
+
+/// Three colour bytes per point, sRGB. The three pointers express the order r g b, b g r (PCL, packed floats) or
+/// planes.
+struct ColorChannel {
+  const unsigned char* r;
+  const unsigned char* g;
+  const unsigned char* b;
+  std::size_t stride_bytes;
+};
+
+/// A borrowed point cloud: nothing is copied, nothing is owned, the memory must outlive the view.
+/// Positions in metres (any unit works if the radius has the same). Points that are not finite are never neighbours.
+/// A channel whose first pointer is null is absent. `width * height == size`; height is 1 for unorganised clouds.
+/// Trivial type with plain members, the same in every translation unit; reading it is thread-safe.
+struct CloudView {
+  Float3Channel points;
+  ColorChannel colors;
+  Float3Channel normals;
+  std::size_t size;
+  std::size_t width;
+  std::size_t height;
+};
+
+struct Point {
+  float x, y, z;
+};
+
+/// An sRGB colour.
+struct Rgb {
+  std::uint8_t r, g, b;
+};
+
+inline namespace SHORTSHOT_ISA {
+
+[[nodiscard]] inline bool has_colors(const CloudView& cloud) noexcept { return cloud.colors.r != nullptr; }
+[[nodiscard]] inline bool has_normals(const CloudView& cloud) noexcept { return cloud.normals.x != nullptr; }
+
+namespace detail {
+
+/// A channel whose x, y and z follow each other by `step` bytes; absent if there is no memory.
+[[nodiscard]] inline Float3Channel float3_channel(const float* first, std::size_t step, std::size_t stride) noexcept {
+  if (first == nullptr) return {};
+  const auto* x = reinterpret_cast<const unsigned char*>(first);
+  return {x, x + step, x + 2 * step, stride};
+}
+
+[[nodiscard]] inline ColorChannel color_channel(const unsigned char* r, std::size_t step, std::size_t stride) noexcept {
+  if (r == nullptr) return {};
+  return {r, r + step, r + 2 * step, stride};
+}
+
+}  // namespace detail
+
+/// View of `count` points x y z (floats). `stride_bytes` is the distance between points.
+[[nodiscard]] inline CloudView view_xyz(const float* xyz, std::size_t count,
+                                        std::size_t stride_bytes = 3 * sizeof(float)) noexcept {
+  CloudView view{};
+  view.points = detail::float3_channel(xyz, sizeof(float), stride_bytes);
+  view.size = count;
+  view.width = count;
+  view.height = 1;
+  return view;
+}
+
+/// View of `count` points x y z (floats) and their colours r g b (bytes), each with its own stride.
+[[nodiscard]] inline CloudView view_xyz_rgb(const float* xyz, const std::uint8_t* rgb, std::size_t count,
+                                            std::size_t xyz_stride_bytes = 3 * sizeof(float),
+                                            std::size_t rgb_stride_bytes = 3) noexcept {
+  CloudView view = view_xyz(xyz, count, xyz_stride_bytes);
+  view.colors = detail::color_channel(rgb, 1, rgb_stride_bytes);
+  return view;
+}
+
+/// The same cloud as an image of `width * height` pixels, row by row, for OrganizedSearch.
+[[nodiscard]] inline CloudView organized(CloudView cloud, std::size_t width, std::size_t height) noexcept {
+  cloud.width = width;
+  cloud.height = height;
+  return cloud;
+}
+
+/// Is this a view that can be read at all? Every entry point asks once.
+[[nodiscard]] inline Status check(const CloudView& cloud) noexcept {
+  if (cloud.size == 0) return Status::empty_cloud;
+  if (cloud.size > 0xFFFFFFFFu) return Status::bad_view;  // indices have 32 bits
+  if (cloud.points.x == nullptr || cloud.points.y == nullptr || cloud.points.z == nullptr) return Status::bad_view;
+  if (has_colors(cloud) && (cloud.colors.g == nullptr || cloud.colors.b == nullptr)) return Status::bad_view;
+  if (has_normals(cloud) && (cloud.normals.y == nullptr || cloud.normals.z == nullptr)) return Status::bad_view;
+  return Status::ok;
+}
+
+/// Element `index` of a channel. memcpy, because a PointCloud2 blob need not be aligned.
+[[nodiscard]] inline Point read(const Float3Channel& channel, std::size_t index) noexcept {
+  const std::size_t offset = index * channel.stride_bytes;
+  Point p{};
+  std::memcpy(&p.x, channel.x + offset, sizeof(float));
+  std::memcpy(&p.y, channel.y + offset, sizeof(float));
+  std::memcpy(&p.z, channel.z + offset, sizeof(float));
+  return p;
+}
+
+[[nodiscard]] inline Point point(const CloudView& cloud, std::size_t index) noexcept {
+  return read(cloud.points, index);
+}
+
+[[nodiscard]] inline bool is_finite(const Point& p) noexcept {
+  return math::is_finite(p.x) && math::is_finite(p.y) && math::is_finite(p.z);
+}
+
+/// The colour of point `index`; the cloud must have colours.
+[[nodiscard]] inline Rgb color(const CloudView& cloud, std::size_t index) noexcept {
+  const std::size_t offset = index * cloud.colors.stride_bytes;
+  return {cloud.colors.r[offset], cloud.colors.g[offset], cloud.colors.b[offset]};
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

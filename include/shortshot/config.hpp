@@ -1,0 +1,16 @@
+// shortshot/config.hpp: the one macro the library sets. There is none for you to set: options are template parameters.
+#pragma once
+
+// Set by us: code compiled for another instruction set lives in another inline namespace, so that two translation
+// units of one program may be compiled with different -m flags without one's code being linked into the other.
+#if defined(__AVX2__)
+#define SHORTSHOT_ISA isa_avx2
+#elif defined(__AVX__)
+#define SHORTSHOT_ISA isa_avx
+#elif defined(__SSE2__) || defined(_M_X64)
+#define SHORTSHOT_ISA isa_sse2
+#elif defined(__ARM_NEON)
+#define SHORTSHOT_ISA isa_neon
+#else
+#define SHORTSHOT_ISA isa_scalar
+#endif

@@ -1,0 +1,142 @@
+// shortshot/describe_at.hpp: one key point from cloud to descriptor: search, frame and kernel in one call.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "cloud.hpp"
+#include "color.hpp"
+#include "config.hpp"
+#include "describe.hpp"
+#include "descriptor.hpp"
+#include "frame.hpp"
+#include "neighborhood.hpp"
+#include "status.hpp"
+
+namespace shortshot {
+/// A place to describe: a point of the cloud, or any other position (a voxel's centroid) with its colour. The colour is
+/// what colour distances refer to; descriptors without colour ignore it. Trivial type.
+struct KeyPoint {
+  Point position;
+  Rgb color;
+};
+
+inline namespace SHORTSHOT_ISA {
+
+/// The key point at point `index` of a cloud, which must be below cloud.size.
+[[nodiscard]] inline KeyPoint keypoint(const CloudView& cloud, std::size_t index) noexcept {
+  return {point(cloud, index), has_colors(cloud) ? color(cloud, index) : Rgb{}};
+}
+
+/// What is described around a key point. Converts from a radius: `0.04f` is a support of 4 cm in SHOT's own frame.
+struct Support {
+  Radius radius;           ///< of the descriptor
+  Radius frame_radius;     ///< of the local reference frame; may be smaller or larger
+  const Point* viewpoint;  ///< where the camera is, in the cloud's coordinates: turns the frames' z; null: by vote
+
+  Support() = default;
+  constexpr Support(Radius r) noexcept : radius(r), frame_radius(r), viewpoint(nullptr) {}  // NOLINT: see above
+  constexpr Support(float r) noexcept : Support(Radius(r)) {}                               // NOLINT: see above
+};
+
+/// Can this cloud be described by D with this search and support? All that can be said before the first key point.
+template <class D, class Search>
+[[nodiscard]] inline Status check(const CloudView& cloud, const Search& search, const Support& support) noexcept {
+  Status status = check(cloud);
+  if (status == Status::ok) status = search.status();
+  if (status == Status::ok) status = check(support.radius);
+  if (status == Status::ok) status = check(support.frame_radius);
+  if (status == Status::ok && D::needs_colors && !has_colors(cloud)) status = Status::missing_colors;
+  return status;
+}
+
+namespace detail {
+
+/// Search, with the larger of the two radii.
+template <class Search>
+[[nodiscard]] inline Status gather(const Search& search, const Point& center, const Support& support,
+                                   Neighborhood& n) noexcept {
+  const bool wide_frame = support.frame_radius.squared > support.radius.squared;
+  return search.gather(center, wide_frame ? support.frame_radius : support.radius, n);
+}
+
+/// Frame and kernel; for `colors` see describe().
+template <class D, class Colors>
+[[nodiscard]] inline Status describe_gathered(const Neighborhood& n, const Colors& colors, const Point& center,
+                                              const Support& support, float* out) noexcept {
+  const Point* eye = support.viewpoint;
+  const float towards[3] = {eye ? eye->x - center.x : 0.0f, eye ? eye->y - center.y : 0.0f,
+                            eye ? eye->z - center.z : 0.0f};
+  Frame frame;
+  const Status status = estimate_frame(n, support.frame_radius, frame, eye ? towards : nullptr);
+  return status == Status::ok ? describe<D>(n, colors, frame, support.radius, out) : status;
+}
+
+/// The rule by which a descriptor's colour part converts colours.
+template <class D>
+struct LabRuleOf;
+template <class Voting, class... Parts>
+struct LabRuleOf<Descriptor<Voting, Parts...>> {
+  template <class Signal, class... Others>
+  static auto find(Signal, Others...) noexcept {
+    if constexpr (Signal::needs_colors) {
+      return typename Signal::Rule{};
+    } else if constexpr (sizeof...(Others) > 0) {
+      return find(Others{}...);
+    }
+  }
+  using type = decltype(find(typename Parts::Signal{}...));
+};
+
+/// The colour source that reads a cloud's own bytes.
+template <class D>
+[[nodiscard]] inline auto rgb_colors(const CloudView& cloud, const Rgb& reference) noexcept {
+  if constexpr (D::needs_colors) {
+    using Rule = typename LabRuleOf<D>::type;
+    return RgbColors<Rule>{cloud, to_lab<Rule>(reference)};
+  } else {
+    return NoColors{};
+  }
+}
+
+}  // namespace detail
+
+/// Describe one key point of a cloud.
+///
+/// `search`     any search over this cloud
+/// `support`    radii and, if known, the camera's position; a plain float is the radius in metres
+/// `workspace`  a Workspace<MaxNeighbors>; all the memory there is
+/// `out`        D::size floats: the descriptor, L2 norm 1, or all zeros if the status is not ok
+///
+/// Statuses: empty_cloud, bad_view, bad_radius, missing_colors, invalid_keypoint, too_many_neighbors (the workspace is
+/// too small: Neighborhood::found of a gather() says what it takes), too_few_neighbors, ambiguous_frame.
+/// No allocation; reentrant, one workspace per thread.
+template <class D, class Search, std::size_t MaxNeighbors>
+[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
+                                        const Support& support, Workspace<MaxNeighbors>& workspace,
+                                        float* out) noexcept {
+  std::memset(out, 0, D::size_bytes);
+  Status status = check<D>(cloud, search, support);
+  if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
+  if (status != Status::ok) return status;
+  Neighborhood n = neighborhood_in(workspace);
+  status = detail::gather(search, key.position, support, n);
+  if (status != Status::ok) return status;
+  return detail::describe_gathered<D>(n, detail::rgb_colors<D>(cloud, key.color), key.position, support, out);
+}
+
+/// The same for the point with an index; bad_keypoint if there is none.
+template <class D, class Search, std::size_t MaxNeighbors>
+[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, std::size_t index,
+                                        const Support& support, Workspace<MaxNeighbors>& workspace,
+                                        float* out) noexcept {
+  std::memset(out, 0, D::size_bytes);
+  const Status status = check<D>(cloud, search, support);
+  if (status != Status::ok) return status;
+  if (index >= cloud.size) return Status::bad_keypoint;
+  return describe_at<D>(cloud, search, keypoint(cloud, index), support, workspace, out);
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

@@ -1,0 +1,93 @@
+// shortshot/descriptor.hpp: what a descriptor is made of. Pure types: sizes, offsets and layout are compile-time facts.
+#pragma once
+
+#include <cstddef>
+
+#include "color.hpp"
+#include "config.hpp"
+#include "grid.hpp"
+#include "voting.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// Signal of SSH: none. Every point counts as one, a cell holds a plain sum.
+struct Occupancy {
+  static constexpr int bins = 1;
+  static constexpr bool needs_colors = false;
+};
+
+/// Signal of CSHOT and SCSH: the CIELAB distance between a point's colour and the key point's, over `Bins` bins of
+/// equal width. `LabRule` is the colour conversion (PublishedLab or PclLab).
+template <int Bins, class LabRule = PublishedLab>
+struct ColorDistance {
+  static_assert(Bins >= 1 && Bins <= 1024, "ColorDistance<Bins> supports 1 to 1024 histogram bins");
+  static constexpr int bins = Bins;
+  static constexpr bool needs_colors = true;
+  using Rule = LabRule;
+};
+
+/// A spherical grid with a histogram of one signal in every cell.
+/// Layout: histogram bin fastest, then radius, elevation, azimuth.
+template <class GridType, class SignalType, class RadiusScale = LinearRadius>
+struct Part {
+  using Grid = GridType;
+  using Signal = SignalType;
+  using Scale = RadiusScale;
+  static constexpr int size = Grid::cells * Signal::bins;
+  static constexpr bool has_histogram = Signal::bins > 1 || Signal::needs_colors;
+
+  /// Position of one value within the part.
+  [[nodiscard]] static constexpr int index(int r, int e, int a, int bin = 0) noexcept {
+    return bin + Signal::bins * Grid::index(r, e, a);
+  }
+
+  using RadialAxis = Axis<Grid::radial, Signal::bins, Beyond::nothing>;
+  using ElevationAxis = Axis<Grid::elevation, Signal::bins * Grid::radial, Beyond::nothing>;
+  using AzimuthAxis = Axis<Grid::azimuth, Signal::bins * Grid::radial * Grid::elevation, Beyond::first_cell>;
+  using SignalAxis = Axis<Signal::bins, 1, Beyond::nothing>;
+};
+
+/// A descriptor: its parts one after the other, filled by one voting rule and normalised together to L2 norm 1.
+template <class VotingRule, class... Parts>
+struct Descriptor {
+  using Voting = VotingRule;
+  static_assert(sizeof...(Parts) >= 1, "Descriptor<Voting, Parts...> supports one or more parts");
+
+  /// Number of floats, and of bytes when stored as floats.
+  static constexpr int size = (Parts::size + ...);
+  static constexpr std::size_t size_bytes = sizeof(float) * static_cast<std::size_t>(size);
+  static_assert(size <= 65536, "Descriptor supports up to 65536 values");
+
+  static constexpr bool needs_colors = (Parts::Signal::needs_colors || ...);
+
+  /// First value of part `i` (of `parts` ones), and the end of the last part.
+  static constexpr int parts = static_cast<int>(sizeof...(Parts));
+  [[nodiscard]] static constexpr int offset(int i) noexcept {
+    constexpr int sizes[] = {Parts::size...};
+    int sum = 0;
+    for (int k = 0; k < i; ++k) sum += sizes[k];
+    return sum;
+  }
+};
+
+/// SSH (equation 4): how many points lie in each cell. Needs points only.
+template <class Grid, class Voting = PublishedVoting, class RadiusScale = LinearRadius>
+using Ssh = Descriptor<Voting, Part<Grid, Occupancy, RadiusScale>>;
+
+/// SCSH (equations 6 and 7): SSH on one grid, histograms of colour distance on another. Needs points and colours.
+template <class ShapeGrid, class ColorGrid, int Bins, class Voting = PublishedVoting, class RadiusScale = LinearRadius,
+          class LabRule = PublishedLab>
+using Scsh = Descriptor<Voting, Part<ShapeGrid, Occupancy, RadiusScale>,
+                        Part<ColorGrid, ColorDistance<Bins, LabRule>, RadiusScale>>;
+
+using Ssh32 = Ssh<SphericalGrid<2, 2, 8>>;
+using Ssh96 = Ssh<SphericalGrid<3, 4, 8>>;
+using Scsh336 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;
+using Scsh696 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 6>, 25>;
+
+static_assert(Ssh32::size == 32 && Ssh96::size == 96 && Scsh336::size == 336 && Scsh696::size == 696,
+              "the published sizes");
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

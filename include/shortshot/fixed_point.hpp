@@ -1,0 +1,30 @@
+// shortshot/fixed_point.hpp: sums that do not depend on their order.
+//
+// Float additions round, so a sum depends on the order of its terms: on the search that found the neighbours, on the
+// number of lanes, on the number of threads. Every sum over neighbours in this library adds numbers that were first
+// scaled by a power of two and rounded to integers: exact additions, the same bits whatever the order.
+#pragma once
+
+#include <cstdint>
+
+#include "config.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// The largest power of two by which `n` numbers of magnitude up to 2^bits can be scaled so that no partial sum leaves
+/// int32, and each number has at most 22 bits (what simd::round_to_int() can take).
+[[nodiscard]] inline float fixed_point_scale(std::uint32_t n, int bits) noexcept {
+  int exponent = 30;
+  for (std::uint32_t covered = 1; covered < n; covered *= 2) --exponent;
+  if (exponent > 22) exponent = 22;
+  exponent -= bits;
+  float scale = 1.0f;
+  for (; exponent > 0; --exponent) scale *= 2.0f;
+  return scale;
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

@@ -1,0 +1,57 @@
+// shortshot/grid.hpp: the spherical grid of a part, sizes and index arithmetic only.
+#pragma once
+
+#include <cstddef>
+
+#include "config.hpp"
+#include "math.hpp"
+#include "simd.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// Divisions of the support sphere: `Radial` shells, `Elevation` cells from the frame's +z to its -z, `Azimuth` cells
+/// counter-clockwise from the frame's -x. The paper's r, e, a (equation 5): n = r * e * a cells.
+template <int Radial, int Elevation, int Azimuth>
+struct SphericalGrid {
+  static_assert(Radial >= 1 && Elevation >= 1 && Azimuth >= 1,
+                "SphericalGrid<Radial, Elevation, Azimuth> supports one or more divisions of each kind");
+  static_assert(Radial <= 1024 && Elevation <= 1024 && Azimuth <= 1024,
+                "SphericalGrid<Radial, Elevation, Azimuth> supports up to 1024 divisions of each kind");
+  static constexpr int radial = Radial;
+  static constexpr int elevation = Elevation;
+  static constexpr int azimuth = Azimuth;
+  static constexpr int cells = Radial * Elevation * Azimuth;
+
+  /// Position of a cell in the published layout: radius fastest, azimuth slowest.
+  [[nodiscard]] static constexpr int index(int r, int e, int a) noexcept { return r + Radial * (e + Elevation * a); }
+};
+
+/// Shells of equal width: the published default. `u` is the distance over the support radius, in [0, 1].
+struct LinearRadius {
+  template <int Shells>
+  [[nodiscard]] static simd::F32 position(simd::F32 u) noexcept {
+    return u * simd::all(static_cast<float>(Shells));
+  }
+};
+
+/// The published logarithmic shells: the innermost one reaches out to R * Numerator / Denominator, the others share
+/// the rest evenly in log r. (The published default, 0.025 m, is 1/4 of a support radius of 0.1 m.)
+template <int Numerator = 1, int Denominator = 4>
+struct LogRadius {
+  static_assert(0 < Numerator && Numerator < Denominator, "LogRadius<N, D> supports ratios 0 < N / D < 1");
+  template <int Shells>
+  [[nodiscard]] static simd::F32 position(simd::F32 u) noexcept {
+    const float log_of_ratio = math::log(static_cast<float>(Numerator) / static_cast<float>(Denominator));
+    return simd::apply(
+        [log_of_ratio](float distance) {
+          // Distances below the smallest normal number have no logarithm; any tiny one lies in the innermost shell.
+          const float log_of_distance = math::log(distance > 1e-30f ? distance : 1e-30f);
+          return static_cast<float>(Shells - 1) * (log_of_distance - log_of_ratio) / -log_of_ratio + 1.0f;
+        },
+        u);
+  }
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

@@ -1,0 +1,155 @@
+// shortshot/math.hpp: the few functions the kernel needs beyond + - * / sqrt, with the same bits on every machine.
+//
+// libm's atan2f, acosf, cbrtf and logf differ from one libm to the next; these do not, and they work on lanes.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "simd.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace math {
+
+/// True for finite numbers, by the exponent bits: holds under -ffast-math too, where comparisons with NaN do not.
+[[nodiscard]] inline bool is_finite(float value) noexcept {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return (bits & 0x7F800000u) != 0x7F800000u;
+}
+
+[[nodiscard]] inline bool is_finite(const float (&v)[3]) noexcept {
+  return is_finite(v[0]) && is_finite(v[1]) && is_finite(v[2]);
+}
+
+/// atan(t) / 2 pi for t in [0, 1], within 2.3e-8 turns. A minimax fit with both ends exact: 0 -> 0 and 1 -> 1/8,
+/// because points on axes and diagonals lie on the borders of cells.
+[[nodiscard]] inline simd::F32 octant_turns(simd::F32 t) noexcept {
+  using simd::all;
+  const simd::F32 s = t * t;
+  simd::F32 p = all(-0.0006326765287667513f);
+  p = p * s + all(0.003435686230659485f);
+  p = p * s + all(-0.008838068693876266f);
+  p = p * s + all(0.01530371978878975f);
+  p = p * s + all(-0.02212062105536461f);
+  p = p * s + all(0.03174300864338875f);
+  p = p * s + all(-0.053045883774757385f);
+  p = p * s + all(0.15915483236312866f);
+  return p * t;
+}
+
+/// The angle of (x, y) split into a multiple of a quarter turn and a signed rest of at most an eighth, in turns, for
+/// y's absolute value: angle = quarter + rest lies in [0, 1/2]. Kept apart so that whoever adds an offset rounds once.
+struct HalfTurns {
+  simd::F32 quarter;
+  simd::F32 rest;
+};
+
+[[nodiscard]] inline HalfTurns half_turns(simd::F32 x, simd::F32 y) noexcept {
+  using simd::all;
+  const simd::F32 ax = simd::abs(x);
+  const simd::F32 ay = simd::abs(y);
+  // The smallest normal number stands in for 0 / 0: the angle of (0, 0) is 0.
+  const simd::F32 eighth = octant_turns(simd::min(ax, ay) / simd::max(simd::max(ax, ay), all(1.17549435e-38f)));
+  const simd::Mask steep = ay > ax;
+  const simd::Mask backward = x < all(0.0f);
+  const simd::F32 quarter = simd::select(steep, all(0.25f), simd::keep(backward, all(0.5f)));
+  const simd::F32 turned = simd::select(steep, all(0.0f) - eighth, eighth);
+  return {quarter, simd::select(backward, all(0.0f) - turned, turned)};
+}
+
+/// The angle from the z axis, 0 at z > 0 to 1 at z < 0 (theta / pi); rho >= 0 is the distance from the axis.
+[[nodiscard]] inline simd::F32 elevation(simd::F32 rho, simd::F32 z) noexcept {
+  const HalfTurns half = half_turns(z, rho);
+  const simd::F32 turns = half.quarter + half.rest;
+  return turns + turns;
+}
+
+/// (atan2(y, x) + pi) / 2 pi in [0, 1]: 1 for y = 0, x < 0.
+[[nodiscard]] inline simd::F32 azimuth(simd::F32 x, simd::F32 y) noexcept {
+  using simd::all;
+  const HalfTurns half = half_turns(x, y);
+  const simd::Mask below = y < all(0.0f);
+  return select(below, all(0.5f) - half.quarter, all(0.5f) + half.quarter) +
+         select(below, all(0.0f) - half.rest, half.rest);
+}
+
+/// Natural logarithm of a positive normal number, absolute error below 2e-7 near 1, relative below 2e-7 elsewhere.
+[[nodiscard]] inline float log(float value) noexcept {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  // Exponent such that the mantissa m lies in [sqrt(1/2), sqrt(2)): the series below is symmetric about 1.
+  const std::int32_t exponent = static_cast<std::int32_t>((bits + 0x004AFB0Du) >> 23) - 127;
+  bits -= static_cast<std::uint32_t>(exponent) << 23;
+  float m = 0.0f;
+  std::memcpy(&m, &bits, sizeof m);
+  const float s = (m - 1.0f) / (m + 1.0f);  // ln m = 2 artanh s, |s| < 0.172
+  const float s2 = s * s;
+  const float artanh = s + s * s2 * (0.333333333f + s2 * (0.2f + s2 * (0.142857143f + s2 * 0.111111111f)));
+  return static_cast<float>(exponent) * 0.693147181f + 2.0f * artanh;
+}
+
+/// A number kept as the sum of two floats, the second at most 2^-7 of the first: a few bits more than one float has.
+struct Sum2 {
+  float high;
+  float low;
+};
+
+/// Cube root of a positive normal number; high + low is within 2e-9 of it, so that it can be rounded once, at the end.
+[[nodiscard]] inline Sum2 cbrt(float value) noexcept {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  bits = bits / 3u + 0x2A5137A0u;  // exponent / 3: a guess within 4 %
+  float root = 0.0f;
+  std::memcpy(&root, &bits, sizeof root);
+  for (int step = 0; step < 2; ++step) {  // Halley: to 2e-7
+    const float cube = root * root * root;
+    root = root * (cube + 2.0f * value) / (2.0f * cube + value);
+  }
+  // The cube of an 8-bit number is exact in float, and so is its distance to the value. With root = high + low:
+  // value - high^3 = low (3 high^2 + 3 high low + low^2).
+  std::memcpy(&bits, &root, sizeof bits);
+  bits &= 0xFFFF0000u;
+  float high = 0.0f;
+  std::memcpy(&high, &bits, sizeof high);
+  const float low = root - high;
+  const float rest = value - high * high * high;
+  return {high, rest / (3.0f * high * (high + low) + low * low)};
+}
+
+/// The largest power of two not above a positive normal number.
+[[nodiscard]] inline float power_of_two_below(float value) noexcept {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  bits &= 0x7F800000u;
+  float power = 0.0f;
+  std::memcpy(&power, &bits, sizeof power);
+  return power;
+}
+
+/// What length() needs to know of vectors no longer than `longest`: 1.5 * 2^23 quanta, each 2^-10 of its power of two.
+[[nodiscard]] inline float length_splitter(float longest) noexcept { return power_of_two_below(longest) * 12288.0f; }
+
+/// sqrt(x^2 + y^2 + z^2), correctly rounded but for a few cases in a million. Points of a regular grid lie exactly on
+/// the borders of shells, where one bit decides which neighbouring shell gets a vote; the published code has double.
+/// Each argument is split in a multiple of a common quantum, whose squares add up exactly, and a small rest.
+[[nodiscard]] inline simd::F32 length(simd::F32 x, simd::F32 y, simd::F32 z, float splitter) noexcept {
+  using simd::F32;
+  const F32 quantum = simd::all(splitter);
+  const auto coarse = [&](F32 v) { return (v + quantum) - quantum; };
+  const F32 cx = coarse(x);
+  const F32 cy = coarse(y);
+  const F32 cz = coarse(z);
+  const F32 exact = cx * cx + cy * cy + cz * cz;
+  const F32 rest = (x - cx) * (x + cx) + (y - cy) * (y + cy) + (z - cz) * (z + cz);
+
+  const F32 root = simd::sqrt(exact + rest);
+  const F32 coarse_root = coarse(root);
+  const F32 error = (exact - coarse_root * coarse_root) + (rest - (root - coarse_root) * (root + coarse_root));
+  return root + error / simd::max(root + root, simd::all(1.17549435e-38f));
+}
+
+}  // namespace math
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

@@ -1,0 +1,38 @@
+// shortshot/search/brute.hpp: neighbours by looking at every point. No index, no memory: the reference, and the choice
+// for a handful of key points in a small cloud.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "../cloud.hpp"
+#include "../config.hpp"
+#include "../neighborhood.hpp"
+#include "../status.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// A search is anything with two functions:
+/// * `Status gather(Point center, Radius radius, Neighborhood& out) const noexcept` offers each valid point within the
+///   radius to `out` exactly once, in any order, by the index it has in the cloud. It returns status() if that is
+///   not ok, and too_many_neighbors if `out` is too small, with the number in `out.found`. It allocates nothing, and
+///   several threads may call it at once;
+/// * `Status status() const noexcept` says why it cannot be asked, if so: what its build() returned.
+struct BruteSearch {
+  CloudView cloud;
+
+  [[nodiscard]] Status status() const noexcept { return check(cloud); }
+
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+    clear(out);
+    if (status() != Status::ok) return status();
+    for (std::size_t i = 0; i < cloud.size; ++i) {
+      offer(out, point(cloud, i), static_cast<std::uint32_t>(i), center, radius.squared);
+    }
+    return outcome(out);
+  }
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

@@ -1,0 +1,181 @@
+// shortshot/search/grid.hpp: the fixed-radius grid. Points are counting-sorted into cubic cells once per cloud; a query
+// looks at runs of neighbouring cells. Ten times faster to build than a tree, faster to search, and of bounded memory.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "../cloud.hpp"
+#include "../config.hpp"
+#include "../math.hpp"
+#include "../neighborhood.hpp"
+#include "../status.hpp"
+#include "grid_box.hpp"
+
+namespace shortshot {
+
+/// Memory of a GridIndex, borrowed from the caller: `point_capacity` elements of `order`, `cell_capacity` of
+/// `cell_end`. `xyz`, if not null, has 3 * point_capacity floats and receives a sorted copy of the points: runs of
+/// neighbours then lie side by side in memory. Without it every point is read through the view.
+template <class Index>
+struct GridMemory {
+  Index* order;
+  Index* cell_end;
+  float* xyz;
+  std::size_t point_capacity;
+  std::size_t cell_capacity;
+};
+
+inline namespace SHORTSHOT_ISA {
+
+/// The index itself, in memory that somebody else owns; a search (see brute.hpp for the concept). Trivial type: build()
+/// before the first gather(). The cloud and the memory must outlive it. `Index` may be uint16_t for clouds of up to
+/// 65,536 points, invalid ones included.
+template <class Index = std::uint32_t>
+class GridIndex {
+  static_assert(std::is_same<Index, std::uint16_t>::value || std::is_same<Index, std::uint32_t>::value,
+                "GridIndex<Index> supports uint16_t and uint32_t");
+
+ public:
+  /// Sort the cloud's valid points into cells of `cell_size` metres; best close to the search radius, or half of it for
+  /// a thousand neighbours and more. Where the cells would not fit the memory (clouds of huge extent, far outliers) the
+  /// outliers are put into the outermost cells and, if that is not enough, cells become larger: any cell size gives
+  /// the same neighbours, only slower.
+  ///
+  /// Statuses: empty_cloud, bad_view, bad_radius (the cell size), out_of_memory (more valid points than
+  /// point_capacity, points with indices beyond Index, or no cell). O(points + cells); allocates nothing.
+  [[nodiscard]] Status build(const CloudView& cloud, float cell_size, const GridMemory<Index>& memory) noexcept {
+    *this = GridIndex{};
+    cloud_ = cloud;
+    memory_ = memory;
+    status_ = index_points(cell_size);
+    return status_;
+  }
+
+  /// What the last build() returned; empty_cloud before the first one (in memory that started as zeros).
+  [[nodiscard]] Status status() const noexcept {
+    return points_ == 0 && status_ == Status::ok ? Status::empty_cloud : status_;
+  }
+
+  /// Number of points in the index: the cloud's valid ones.
+  [[nodiscard]] std::size_t size() const noexcept { return points_; }
+
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+    clear(out);
+    if (status() != Status::ok) return status();
+    // The margin covers the rounding of d2: a point inside by d2 is never outside by one coordinate.
+    const float reach = radius.value * 1.000001f;
+    const detail::CellRange x = box_.range(0, center.x, reach);
+    const detail::CellRange y = box_.range(1, center.y, reach);
+    const detail::CellRange z = box_.range(2, center.z, reach);
+    for (std::uint32_t cz = z.first; cz <= z.last; ++cz) {
+      for (std::uint32_t cy = y.first; cy <= y.last; ++cy) {
+        const std::size_t row = box_.row(cy, cz);
+        offer_run(begin_of(row + x.first), memory_.cell_end[row + x.last], center, radius, out);
+      }
+    }
+    return outcome(out);
+  }
+
+ private:
+  [[nodiscard]] Status index_points(float cell_size) noexcept {
+    const Status usable = check(cloud_);
+    if (usable != Status::ok) return usable;
+    if (check(Radius(cell_size)) != Status::ok) return Status::bad_radius;
+    if (memory_.cell_capacity == 0) return Status::out_of_memory;
+
+    detail::Extent extent;
+    const std::size_t valid = detail::measure(cloud_, extent);
+    if (valid == 0) return Status::empty_cloud;
+    constexpr std::size_t most = static_cast<Index>(~Index{0});
+    if (valid > memory_.point_capacity || valid > most || cloud_.size - 1 > most) return Status::out_of_memory;
+
+    box_ = detail::fit_box(cloud_, extent, valid, cell_size, memory_.cell_end, memory_.cell_capacity);
+    points_ = valid;
+    sort();
+    return Status::ok;
+  }
+
+  /// cell_end[c] is where cell c ends in `order`; it begins where the cell before it ends.
+  [[nodiscard]] std::size_t begin_of(std::size_t cell) const noexcept {
+    return cell == 0 ? 0 : memory_.cell_end[cell - 1];
+  }
+
+  void offer_run(std::size_t begin, std::size_t end, const Point& center, Radius radius,
+                 Neighborhood& out) const noexcept {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t index = memory_.order[i];
+      const Point p = memory_.xyz == nullptr
+                          ? point(cloud_, index)
+                          : Point{memory_.xyz[3 * i], memory_.xyz[3 * i + 1], memory_.xyz[3 * i + 2]};
+      offer(out, p, index, center, radius.squared);
+    }
+  }
+
+  /// Counting sort: count per cell, turn counts into ends of the cells before, and let each placed point move its
+  /// cell's end forward to where it belongs.
+  void sort() noexcept {
+    const std::size_t cells = box_.cells();
+    for (std::size_t c = 0; c < cells; ++c) memory_.cell_end[c] = 0;
+    for_each_valid([this](std::size_t, std::size_t cell, const Point&) { ++memory_.cell_end[cell]; });
+    Index begin = 0;
+    for (std::size_t c = 0; c < cells; ++c) {
+      const Index count = memory_.cell_end[c];
+      memory_.cell_end[c] = begin;
+      begin = static_cast<Index>(begin + count);
+    }
+    for_each_valid([this](std::size_t index, std::size_t cell, const Point& p) {
+      const std::size_t place = memory_.cell_end[cell]++;
+      memory_.order[place] = static_cast<Index>(index);
+      if (memory_.xyz == nullptr) return;
+      memory_.xyz[3 * place] = p.x;
+      memory_.xyz[3 * place + 1] = p.y;
+      memory_.xyz[3 * place + 2] = p.z;
+    });
+  }
+
+  template <class Function>
+  void for_each_valid(Function f) const noexcept {
+    for (std::size_t i = 0; i < cloud_.size; ++i) {
+      const Point p = point(cloud_, i);
+      if (is_finite(p)) f(i, box_.cell_of(p), p);
+    }
+  }
+
+  CloudView cloud_;
+  GridMemory<Index> memory_;
+  detail::GridBox box_;
+  std::size_t points_;
+  Status status_;
+};
+
+/// A GridIndex with its memory inside, for clouds of up to `MaxPoints` valid points: a static or a member, no heap.
+/// 2 bytes a point and 2 a cell up to 65,535 points, else 4 (the cloud's indices must fit those bytes, too). Trivial
+/// type: build() before the first gather().
+template <std::size_t MaxPoints, std::size_t MaxCells>
+class StaticGrid {
+  static_assert(MaxPoints >= 1 && MaxCells >= 1, "StaticGrid<MaxPoints, MaxCells> supports one or more of both");
+
+ public:
+  using Index = std::conditional_t<(MaxPoints <= 65535), std::uint16_t, std::uint32_t>;
+
+  /// See GridIndex::build().
+  [[nodiscard]] Status build(const CloudView& cloud, float cell_size) noexcept {
+    return index_.build(cloud, cell_size, {order_, cell_end_, nullptr, MaxPoints, MaxCells});
+  }
+
+  [[nodiscard]] Status status() const noexcept { return index_.status(); }
+
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+    return index_.gather(center, radius, out);
+  }
+
+ private:
+  GridIndex<Index> index_;
+  Index order_[MaxPoints];
+  Index cell_end_[MaxCells];
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

@@ -1,0 +1,144 @@
+// shortshot/search/grid_box.hpp: the box of cells under a grid search, of bounded size whatever the cloud.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "../cloud.hpp"
+#include "../config.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// Smallest and largest coordinate along each axis.
+struct Extent {
+  float low[3];
+  float high[3];
+};
+
+[[nodiscard]] inline float coordinate(const Point& p, int axis) noexcept {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+/// Extent of the valid points; returns how many there are.
+[[nodiscard]] inline std::size_t measure(const CloudView& cloud, Extent& extent) noexcept {
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < cloud.size; ++i) {
+    const Point p = point(cloud, i);
+    if (!is_finite(p)) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float v = coordinate(p, axis);
+      if (valid == 0 || v < extent.low[axis]) extent.low[axis] = v;
+      if (valid == 0 || v > extent.high[axis]) extent.high[axis] = v;
+    }
+    ++valid;
+  }
+  return valid;
+}
+
+/// First and last cell of a range, both inside the box.
+struct CellRange {
+  std::uint32_t first;
+  std::uint32_t last;
+};
+
+/// Cubic cells, x fastest. Coordinates outside the box belong to its outermost cells: since that map never decreases,
+/// a range of coordinates always maps to a range of cells, and no box is too small to be right.
+struct GridBox {
+  float low[3];
+  float cells_per_metre;
+  std::uint32_t dims[3];
+
+  [[nodiscard]] std::uint32_t cell(int axis, float v) const noexcept {
+    const float position = (v - low[axis]) * cells_per_metre;
+    if (!(position > 0.0f)) return 0;
+    const std::uint32_t last = dims[axis] - 1;
+    return position < static_cast<float>(last) ? static_cast<std::uint32_t>(position) : last;
+  }
+
+  [[nodiscard]] CellRange range(int axis, float center, float reach) const noexcept {
+    return {cell(axis, center - reach), cell(axis, center + reach)};
+  }
+
+  [[nodiscard]] std::size_t row(std::uint32_t y, std::uint32_t z) const noexcept {
+    return (static_cast<std::size_t>(z) * dims[1] + y) * dims[0];
+  }
+
+  [[nodiscard]] std::size_t cell_of(const Point& p) const noexcept {
+    return row(cell(1, p.y), cell(2, p.z)) + cell(0, p.x);
+  }
+
+  [[nodiscard]] std::size_t cells() const noexcept { return static_cast<std::size_t>(dims[0]) * dims[1] * dims[2]; }
+};
+
+/// Cells along each axis for an extent of any size; false if together they would be more than `capacity`.
+[[nodiscard]] inline bool count_cells(const Extent& extent, float cell_size, std::size_t capacity,
+                                      std::uint32_t (&dims)[3]) noexcept {
+  std::size_t room = capacity < 0x7FFFFFFFu ? capacity : 0x7FFFFFFFu;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float cells = (extent.high[axis] - extent.low[axis]) / cell_size + 1.0f;
+    if (!(cells < 2147483648.0f)) return false;
+    dims[axis] = static_cast<std::uint32_t>(cells);
+    room /= dims[axis];
+    if (room == 0) return false;
+  }
+  return true;
+}
+
+/// Cut the thinly populated ends off one axis: of 64 slices, those at either end that together hold at most 1 point in
+/// 128. Returns whether that at least halved the extent, which is when another round is worth while.
+template <class Index>
+[[nodiscard]] inline bool trim(const CloudView& cloud, std::size_t valid, int axis, Index* slices,
+                               Extent& extent) noexcept {
+  constexpr int count = 64;
+  const float low = extent.low[axis];
+  const float width = (extent.high[axis] - low) / count;
+  if (!(width > 0.0f)) return false;
+  for (int s = 0; s < count; ++s) slices[s] = 0;
+  const auto slice_of = [&](float v) {
+    const float s = (v - low) / width;
+    return !(s > 0.0f) ? 0 : s < count - 1.0f ? static_cast<int>(s) : count - 1;
+  };
+  for (std::size_t i = 0; i < cloud.size; ++i) {
+    const Point p = point(cloud, i);
+    if (is_finite(p)) ++slices[slice_of(coordinate(p, axis))];
+  }
+
+  int first = 0;
+  int last = count - 1;
+  std::size_t below = slices[first];
+  std::size_t above = slices[last];
+  for (; below <= valid / 128 && first < last; below += slices[first]) ++first;
+  for (; above <= valid / 128 && first < last; above += slices[last]) --last;
+  extent.low[axis] = low + static_cast<float>(first) * width;
+  extent.high[axis] = low + static_cast<float>(last + 1) * width;
+  return 2 * (last + 1 - first) <= count;
+}
+
+/// A box of at most `capacity` cells; `scratch` has as many elements and is free to be written.
+template <class Index>
+[[nodiscard]] inline GridBox fit_box(const CloudView& cloud, Extent extent, std::size_t valid, float cell_size,
+                                     Index* scratch, std::size_t capacity) noexcept {
+  GridBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    // A round divides the extent by up to 64: two dozen span all of float's range.
+    for (int round = 0; round < 24 && capacity >= 64; ++round) {
+      if (count_cells(extent, cell_size, capacity, box.dims)) break;
+      if (!trim(cloud, valid, axis, scratch, extent)) break;
+    }
+  }
+  while (!count_cells(extent, cell_size, capacity, box.dims) && cell_size < 1e37f) cell_size *= 1.25f;
+
+  box.cells_per_metre = 1.0f / cell_size;
+  const bool fits = count_cells(extent, cell_size, capacity, box.dims);
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = extent.low[axis];
+    if (!fits) box.dims[axis] = 1;  // an extent of all of float's range
+  }
+  return box;
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

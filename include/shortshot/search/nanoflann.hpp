@@ -1,0 +1,113 @@
+// shortshot/search/nanoflann.hpp: neighbours from nanoflann's k-d tree. Hosted only: building it allocates, and may
+// throw std::bad_alloc. A leaf: nothing else in the library includes it. Works with nanoflann 1.4 to 1.12.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <nanoflann.hpp>
+#include <vector>
+
+#include "../cloud.hpp"
+#include "../config.hpp"
+#include "../neighborhood.hpp"
+#include "../status.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// The valid points of a cloud, as nanoflann wants to see them: NaN would spoil the tree.
+struct NanoflannCloud {
+  CloudView cloud;
+  std::vector<std::uint32_t> valid;
+
+  [[nodiscard]] std::size_t kdtree_get_point_count() const { return valid.size(); }
+  [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    const Point p = point(cloud, valid[i]);
+    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+  }
+  template <class BoundingBox>
+  bool kdtree_get_bbox(BoundingBox&) const {
+    return false;
+  }
+};
+
+/// A nanoflann result set that passes candidates straight on to a neighbourhood: queries allocate nothing, and whether
+/// a candidate is a neighbour is decided by the same rule, in the same arithmetic, as in every other search.
+class NanoflannSink {
+ public:
+  using DistanceType = float;
+  using IndexType = std::uint32_t;
+
+  NanoflannSink(const NanoflannCloud& points, const Point& center, Radius radius, Neighborhood& out)
+      : points_(points), center_(center), radius_(radius), out_(out) {}
+
+  bool addPoint(float, std::uint32_t i) {
+    const std::uint32_t index = points_.valid[i];
+    offer(out_, point(points_.cloud, index), index, center_, radius_.squared);
+    return true;
+  }
+  /// A little more than the radius, so that the tree's own rounding loses nobody on the rim.
+  [[nodiscard]] float worstDist() const { return radius_.squared * 1.00001f; }
+  [[nodiscard]] std::size_t size() const { return out_.size; }
+  [[nodiscard]] bool empty() const { return out_.size == 0; }
+  [[nodiscard]] bool full() const { return true; }
+  void sort() {}
+
+ private:
+  const NanoflannCloud& points_;
+  Point center_;
+  Radius radius_;
+  Neighborhood& out_;
+};
+
+}  // namespace detail
+
+/// A k-d tree over a cloud; a search (see brute.hpp). The cloud must outlive it. Queries are thread-safe.
+class NanoflannSearch {
+ public:
+  /// Builds the tree: O(n log n), allocates. `leaf_size` is the most points in a leaf. An empty or bad view gives a
+  /// search that finds nothing; status() says why.
+  explicit NanoflannSearch(const CloudView& cloud, std::size_t leaf_size = 10)
+      : points_{cloud, valid_points(cloud)},
+        tree_(3, points_, {leaf_size, nanoflann::KDTreeSingleIndexAdaptorFlags::SkipInitialBuildIndex}) {
+    if (!points_.valid.empty()) tree_.buildIndex();
+  }
+  NanoflannSearch(const NanoflannSearch&) = delete;  // the tree refers to points_
+  NanoflannSearch& operator=(const NanoflannSearch&) = delete;
+
+  [[nodiscard]] Status status() const noexcept {
+    const Status usable = check(points_.cloud);
+    return usable == Status::ok && points_.valid.empty() ? Status::empty_cloud : usable;
+  }
+
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+    clear(out);
+    if (status() != Status::ok) return status();
+    if (!is_finite(center)) return Status::ok;
+    detail::NanoflannSink sink(points_, center, radius, out);
+    const float query[3] = {center.x, center.y, center.z};
+    tree_.findNeighbors(sink, query, {});  // {}: SearchParams up to 1.4, SearchParameters from 1.5 on
+    return outcome(out);
+  }
+
+ private:
+  using Distance = nanoflann::L2_Simple_Adaptor<float, detail::NanoflannCloud, float, std::uint32_t>;
+  using Tree = nanoflann::KDTreeSingleIndexAdaptor<Distance, detail::NanoflannCloud, 3, std::uint32_t>;
+
+  [[nodiscard]] static std::vector<std::uint32_t> valid_points(const CloudView& cloud) {
+    std::vector<std::uint32_t> valid;
+    if (check(cloud) != Status::ok) return valid;
+    valid.reserve(cloud.size);
+    for (std::size_t i = 0; i < cloud.size; ++i) {
+      if (is_finite(point(cloud, i))) valid.push_back(static_cast<std::uint32_t>(i));
+    }
+    return valid;
+  }
+
+  detail::NanoflannCloud points_;
+  Tree tree_;
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

@@ -1,0 +1,173 @@
+// shortshot/search/organized.hpp: neighbours in a window of the depth image. No index at all: for organised clouds on
+// targets that cannot spare one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "../cloud.hpp"
+#include "../config.hpp"
+#include "../math.hpp"
+#include "../neighborhood.hpp"
+#include "../status.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// pixel = focal * (x / z) + center, for one direction of the image; no valid point is farther than `error` from it.
+struct Projection {
+  float focal;
+  float center;
+  float error;
+};
+
+/// First and last pixel of a window.
+struct PixelRange {
+  std::size_t first;
+  std::size_t last;
+};
+
+}  // namespace detail
+
+/// Search of an organised cloud by projecting the support sphere into the image; a search (see brute.hpp). The camera
+/// need not be known: build() fits a pinhole to the cloud and keeps the largest deviation as the window's margin, so
+/// that the neighbours are exactly those of every other search. Trivial type; the cloud must outlive it.
+class OrganizedSearch {
+ public:
+  /// Statuses: empty_cloud, bad_view, not_organized (height 1, width * height != size, points in front of and behind
+  /// the camera, or points that deviate from every pinhole by more than a quarter of the image, as after moving the
+  /// cloud into another coordinate system). O(points); allocates nothing.
+  [[nodiscard]] Status build(const CloudView& cloud) noexcept {
+    *this = OrganizedSearch{};
+    cloud_ = cloud;
+    status_ = fit();
+    return status_;
+  }
+
+  /// What the last build() returned; empty_cloud before the first one (in memory that started as zeros).
+  [[nodiscard]] Status status() const noexcept { return cloud_.size == 0 ? Status::empty_cloud : status_; }
+
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+    clear(out);
+    if (status() != Status::ok) return status();
+    const float reach = radius.value * 1.000001f;  // covers the rounding of d2
+    const detail::PixelRange columns = window(columns_, center.x, center.z, reach, cloud_.width);
+    const detail::PixelRange rows = window(rows_, center.y, center.z, reach, cloud_.height);
+    for (std::size_t v = rows.first; v < rows.last; ++v) {
+      for (std::size_t u = columns.first; u < columns.last; ++u) {
+        const std::size_t i = v * cloud_.width + u;
+        offer(out, point(cloud_, i), static_cast<std::uint32_t>(i), center, radius.squared);
+      }
+    }
+    return outcome(out);
+  }
+
+ private:
+  /// Pixels (first, one past last) that the cube around the sphere projects to; all of them if it reaches the camera.
+  [[nodiscard]] static detail::PixelRange window(const detail::Projection& p, float center, float z, float reach,
+                                                 std::size_t pixels) noexcept {
+    const float near = z - reach;
+    const float far = z + reach;
+    if (!(near * far > 0.0f)) return {0, pixels};
+    const float corners[4] = {(center - reach) / near, (center - reach) / far, (center + reach) / near,
+                              (center + reach) / far};
+    float low = p.focal * corners[0] + p.center;
+    float high = low;
+    for (const float corner : corners) {
+      const float pixel = p.focal * corner + p.center;
+      low = pixel < low ? pixel : low;
+      high = pixel > high ? pixel : high;
+    }
+    const auto clamped = [pixels](float pixel) -> std::size_t {
+      if (!(pixel > 0.0f)) return 0;
+      return pixel < static_cast<float>(pixels) ? static_cast<std::size_t>(pixel) : pixels;
+    };
+    return {clamped(low - p.error - 1.0f), clamped(high + p.error + 2.0f)};
+  }
+
+  /// Calls f(column, row, x / z, y / z) for each valid point.
+  template <class Function>
+  void for_each_valid(Function f) const noexcept {
+    for (std::size_t i = 0; i < cloud_.size; ++i) {
+      const Point p = point(cloud_, i);
+      if (!is_finite(p)) continue;
+      const std::size_t row = i / cloud_.width;
+      const std::size_t column = i % cloud_.width;
+      f(static_cast<float>(column), static_cast<float>(row), p.x / p.z, p.y / p.z);
+    }
+  }
+
+  [[nodiscard]] Status fit() noexcept {
+    const Status usable = check(cloud_);
+    if (usable != Status::ok) return usable;
+    if (cloud_.height < 2 || cloud_.width < 2 || cloud_.size / cloud_.width != cloud_.height ||
+        cloud_.size % cloud_.width != 0) {
+      return Status::not_organized;
+    }
+    bool front = false;
+    bool behind = false;
+    for (std::size_t i = 0; i < cloud_.size; ++i) {
+      const Point p = point(cloud_, i);
+      if (!is_finite(p)) continue;
+      front = front || p.z > 0.0f;
+      behind = behind || !(p.z > 0.0f);
+    }
+    if (!front && !behind) return Status::empty_cloud;
+    if (front && behind) return Status::not_organized;
+
+    Line columns{};
+    Line rows{};
+    for_each_valid([&](float u, float v, float x, float y) {
+      columns.add_to_mean(x, u);
+      rows.add_to_mean(y, v);
+    });
+    for_each_valid([&](float u, float v, float x, float y) {
+      columns.add_to_slope(x, u);
+      rows.add_to_slope(y, v);
+    });
+    columns_ = columns.projection();
+    rows_ = rows.projection();
+    for_each_valid([&](float u, float v, float x, float y) {
+      widen(columns_, x, u);
+      widen(rows_, y, v);
+    });
+    const bool pinhole = columns_.error <= 0.25f * static_cast<float>(cloud_.width) &&
+                         rows_.error <= 0.25f * static_cast<float>(cloud_.height);
+    return pinhole ? Status::ok : Status::not_organized;
+  }
+
+  /// Least squares of pixel over slope in float, by running means so that a million points do not wear it out. It need
+  /// not be exact: what the fit misses, the margin covers.
+  struct Line {
+    float count, mean_slope, mean_pixel, variance, covariance;
+
+    void add_to_mean(float slope, float pixel) noexcept {
+      count += 1.0f;
+      mean_slope += (slope - mean_slope) / count;
+      mean_pixel += (pixel - mean_pixel) / count;
+    }
+    void add_to_slope(float slope, float pixel) noexcept {
+      variance += (slope - mean_slope) * (slope - mean_slope);
+      covariance += (slope - mean_slope) * (pixel - mean_pixel);
+    }
+    [[nodiscard]] detail::Projection projection() const noexcept {
+      const float focal = variance > 0.0f ? covariance / variance : 0.0f;
+      return {focal, mean_pixel - focal * mean_slope, 0.0f};
+    }
+  };
+
+  static void widen(detail::Projection& p, float slope, float pixel) noexcept {
+    const float deviation = pixel - (p.focal * slope + p.center);
+    const float magnitude = deviation < 0.0f ? 0.0f - deviation : deviation;
+    if (!(magnitude <= p.error)) p.error = magnitude;
+  }
+
+  CloudView cloud_;
+  Status status_;
+  detail::Projection columns_;
+  detail::Projection rows_;
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

@@ -1,0 +1,24 @@
+// shortshot: short colour-shape descriptors (SSH, SCSH) of RGB-D point clouds on small CPUs.
+//
+// The umbrella. On bare metal it is the kernel: no heap, no exceptions, no operating system. Where there is an
+// operating system it adds what allocates: extract() for many key points, sampling, a grid with memory of its own.
+// Include <nanoflann.hpp> or <Eigen/Core> BEFORE it and NanoflannSearch or view_eigen() are there as well.
+#pragma once
+
+#include "adapters/point_cloud2.hpp"
+#include "adapters/structs.hpp"
+#include "kernel.hpp"
+
+#if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
+#include "extract.hpp"
+#include "sample.hpp"
+#include "search/grid_hosted.hpp"
+#endif
+
+#if defined(NANOFLANN_VERSION)
+#include "search/nanoflann.hpp"
+#endif
+
+#if defined(EIGEN_WORLD_VERSION)
+#include "adapters/eigen.hpp"
+#endif

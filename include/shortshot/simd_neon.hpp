@@ -1,0 +1,70 @@
+// shortshot/simd_neon.hpp: the lane shim on NEON, 4 lanes: every aarch64 (32-bit NEON flushes denormals and cannot
+// divide). Included by simd.hpp, which says what it must do.
+#pragma once
+
+#include <arm_neon.h>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "config.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace simd {
+
+inline constexpr std::size_t lanes = 4;
+
+struct F32 {
+  float32x4_t v;
+};
+struct I32 {
+  int32x4_t v;
+};
+struct Mask {
+  uint32x4_t v;
+};
+
+/// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
+[[nodiscard]] inline float root(float value) noexcept { return vget_lane_f32(vsqrt_f32(vdup_n_f32(value)), 0); }
+
+[[nodiscard]] inline F32 load(const float* p) noexcept { return {vld1q_f32(p)}; }
+inline void store(float* p, F32 a) noexcept { vst1q_f32(p, a.v); }
+inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
+[[nodiscard]] inline F32 all(float value) noexcept { return {vdupq_n_f32(value)}; }
+
+[[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {vaddq_f32(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {vsubq_f32(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {vmulq_f32(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {vdivq_f32(a.v, b.v)}; }
+[[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {vaddq_s32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {vcltq_f32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {vcgtq_f32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {vcgeq_f32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {vandq_u32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {vorrq_u32(a.v, b.v)}; }
+
+[[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {vsqrtq_f32(a.v)}; }
+[[nodiscard]] inline F32 abs(F32 a) noexcept { return {vabsq_f32(a.v)}; }
+[[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {vbslq_f32(vcltq_f32(a.v, b.v), a.v, b.v)}; }
+[[nodiscard]] inline F32 max(F32 a, F32 b) noexcept { return {vbslq_f32(vcgtq_f32(a.v, b.v), a.v, b.v)}; }
+
+/// yes where m, else no.
+[[nodiscard]] inline F32 select(Mask m, F32 yes, F32 no) noexcept { return {vbslq_f32(m.v, yes.v, no.v)}; }
+/// a where m, else zero.
+[[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept {
+  return {vreinterpretq_f32_u32(vandq_u32(m.v, vreinterpretq_u32_f32(a.v)))};
+}
+/// 1 where m, else zero.
+[[nodiscard]] inline I32 ones(Mask m) noexcept { return {vreinterpretq_s32_u32(vshrq_n_u32(m.v, 31))}; }
+
+/// Towards zero; |a| must stay below 2^31.
+[[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {vcvtq_s32_f32(a.v)}; }
+[[nodiscard]] inline F32 truncate(F32 a) noexcept { return {vrndq_f32(a.v)}; }
+
+/// To the nearest integer, ties to even (the default rounding mode).
+[[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {vcvtnq_s32_f32(a.v)}; }
+
+}  // namespace simd
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

@@ -1,0 +1,81 @@
+// shortshot/simd_scalar.hpp: the lane shim one lane at a time: microcontrollers, and whatever has no other. Included by
+// simd.hpp, which says what it must do.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "config.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace simd {
+
+inline constexpr std::size_t lanes = 1;
+
+struct F32 {
+  float v;
+};
+struct I32 {
+  std::int32_t v;
+};
+struct Mask {
+  bool v;
+};
+
+/// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
+[[nodiscard]] inline float root(float value) noexcept {
+#if defined(__ARM_FP)
+  float result;
+  __asm__("vsqrt.f32 %0, %1" : "=t"(result) : "t"(value));
+  return result;
+#else
+  return __builtin_sqrtf(value);
+#endif
+}
+
+[[nodiscard]] inline F32 load(const float* p) noexcept { return {*p}; }
+inline void store(float* p, F32 a) noexcept { *p = a.v; }
+inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
+[[nodiscard]] inline F32 all(float value) noexcept { return {value}; }
+
+[[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {a.v + b.v}; }
+[[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {a.v - b.v}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {a.v * b.v}; }
+[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {a.v / b.v}; }
+[[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {a.v + b.v}; }
+[[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {a.v < b.v}; }
+[[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {a.v > b.v}; }
+[[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {a.v >= b.v}; }
+[[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
+[[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
+
+[[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {root(a.v)}; }
+[[nodiscard]] inline F32 abs(F32 a) noexcept { return {a.v < 0.0f ? 0.0f - a.v : a.v}; }
+[[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {a.v < b.v ? a.v : b.v}; }
+[[nodiscard]] inline F32 max(F32 a, F32 b) noexcept { return {a.v > b.v ? a.v : b.v}; }
+
+/// yes where m, else no.
+[[nodiscard]] inline F32 select(Mask m, F32 yes, F32 no) noexcept { return {m.v ? yes.v : no.v}; }
+/// a where m, else zero.
+[[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {m.v ? a.v : 0.0f}; }
+/// 1 where m, else zero.
+[[nodiscard]] inline I32 ones(Mask m) noexcept { return {m.v ? 1 : 0}; }
+
+/// Towards zero; |a| must stay below 2^31.
+[[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {static_cast<std::int32_t>(a.v)}; }
+[[nodiscard]] inline F32 truncate(F32 a) noexcept { return {static_cast<float>(static_cast<std::int32_t>(a.v))}; }
+
+/// To the nearest integer, ties to even; |a| <= 2^22. Adding 1.5 * 2^23 leaves the integer in the low mantissa bits:
+/// the same bits on every machine, with no call into libm.
+[[nodiscard]] inline I32 round_to_int(F32 a) noexcept {
+  const float shifted = a.v + 12582912.0f;
+  std::int32_t bits = 0;
+  std::memcpy(&bits, &shifted, sizeof bits);
+  return {bits - 0x4B400000};
+}
+
+}  // namespace simd
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

@@ -1,0 +1,59 @@
+// shortshot/status.hpp: the one way in which the library reports that something is wrong.
+#pragma once
+
+#include <cstdint>
+
+#include "config.hpp"
+
+namespace shortshot {
+
+/// Result of every call that can fail. Whatever is not `ok` comes with a zeroed output, never with NaN.
+// (version 14 of it does not know attributes of enumerations)
+// clang-format off
+enum class [[nodiscard]] Status : std::uint8_t {
+  ok,
+  empty_cloud,         ///< the cloud has no point, or no point with three finite coordinates
+  bad_view,            ///< the view's memory cannot be what it says (null pointer, field outside the point, too short)
+  bad_radius,          ///< a radius is not a finite number above zero, or its square leaves the range of float
+  bad_keypoint,        ///< a key point's index lies outside the cloud
+  invalid_keypoint,    ///< a key point's position is not finite
+  missing_colors,      ///< the descriptor needs colours and the cloud has none
+  missing_normals,     ///< the descriptor needs normals and the cloud has none
+  too_few_neighbors,   ///< no neighbour to describe, or fewer than five for a local reference frame
+  too_many_neighbors,  ///< the neighbourhood does not fit the workspace; Neighborhood::found says what it takes
+  ambiguous_frame,     ///< collinear or symmetric neighbourhood: two principal axes cannot be told apart
+  bad_frame,           ///< a given frame is not orthonormal, or not finite
+  bad_leaf,            ///< a voxel size is not a finite number above zero
+  out_of_memory,       ///< caller-provided memory is too small for the cloud
+  not_organized,       ///< the cloud is no image of a pinhole camera, so it has no image window to search
+};
+// clang-format on
+
+inline constexpr int status_count = static_cast<int>(Status::not_organized) + 1;
+
+inline namespace SHORTSHOT_ISA {
+
+/// One English sentence for a status. Static storage; never null.
+[[nodiscard]] constexpr const char* message(Status status) noexcept {
+  switch (status) {
+    case Status::ok: return "ok";
+    case Status::empty_cloud: return "the cloud has no valid point";
+    case Status::bad_view: return "the cloud view does not fit its memory";
+    case Status::bad_radius: return "a radius must be finite and above zero";
+    case Status::bad_keypoint: return "the key point's index lies outside the cloud";
+    case Status::invalid_keypoint: return "the key point is not finite";
+    case Status::missing_colors: return "the descriptor needs colours and the cloud has none";
+    case Status::missing_normals: return "the descriptor needs normals and the cloud has none";
+    case Status::too_few_neighbors: return "too few neighbours within the radius";
+    case Status::too_many_neighbors: return "more neighbours than the workspace can hold";
+    case Status::ambiguous_frame: return "the neighbourhood is too symmetric for a local reference frame";
+    case Status::bad_frame: return "the given frame is not orthonormal";
+    case Status::bad_leaf: return "a voxel size must be finite and above zero";
+    case Status::out_of_memory: return "the memory provided is too small";
+    case Status::not_organized: return "the cloud is not an image of a pinhole camera";
+  }
+  return "unknown status";
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

@@ -1,0 +1,3061 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// shortshot 0.1.0, all of it in one file. Generated: do not edit; edit include/shortshot/*.hpp and regenerate
+// with: cmake -P single_include/amalgamate.cmake
+#pragma once
+
+// shortshot: short colour-shape descriptors (SSH, SCSH) of RGB-D point clouds on small CPUs.
+//
+// The umbrella. On bare metal it is the kernel: no heap, no exceptions, no operating system. Where there is an
+// operating system it adds what allocates: extract() for many key points, sampling, a grid with memory of its own.
+// Include <nanoflann.hpp> or <Eigen/Core> BEFORE it and NanoflannSearch or view_eigen() are there as well.
+
+// shortshot/adapters/point_cloud2.hpp: views of sensor_msgs/PointCloud2-shaped messages, without including ROS.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+// shortshot/cloud.hpp: the only door for point clouds. A CloudView borrows the user's own memory, whatever its layout.
+
+// shortshot/config.hpp: the one macro the library sets. There is none for you to set: options are template parameters.
+
+// Set by us: code compiled for another instruction set lives in another inline namespace, so that two translation
+// units of one program may be compiled with different -m flags without one's code being linked into the other.
+#if defined(__AVX2__)
+#define SHORTSHOT_ISA isa_avx2
+#elif defined(__AVX__)
+#define SHORTSHOT_ISA isa_avx
+#elif defined(__SSE2__) || defined(_M_X64)
+#define SHORTSHOT_ISA isa_sse2
+#elif defined(__ARM_NEON)
+#define SHORTSHOT_ISA isa_neon
+#else
+#define SHORTSHOT_ISA isa_scalar
+#endif
+
+// shortshot/math.hpp: the few functions the kernel needs beyond + - * / sqrt, with the same bits on every machine.
+//
+// libm's atan2f, acosf, cbrtf and logf differ from one libm to the next; these do not, and they work on lanes.
+
+// shortshot/simd.hpp: the thin lane shim. Every pass of the kernel is written once, in terms of F32, I32 and Mask; the
+// compiler's own macros choose what they are: AVX2, SSE2, NEON (aarch64) or one lane at a time.
+//
+// All operations are exactly rounded IEEE single precision or pure bit moves, and every accumulation in the kernel is
+// an integer sum (fixed_point.hpp), so that the number of lanes never changes a result.
+
+#if defined(__AVX2__)
+
+// shortshot/simd_avx2.hpp: the lane shim on AVX2, 8 lanes; no fused multiply-add, which rounds differently. Included by
+// simd.hpp, which says what it must do.
+
+#include <immintrin.h>
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace simd {
+
+inline constexpr std::size_t lanes = 8;
+
+struct F32 {
+  __m256 v;
+};
+struct I32 {
+  __m256i v;
+};
+struct Mask {
+  __m256 v;
+};
+
+/// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
+[[nodiscard]] inline float root(float value) noexcept { return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(value))); }
+
+[[nodiscard]] inline F32 load(const float* p) noexcept { return {_mm256_loadu_ps(p)}; }
+inline void store(float* p, F32 a) noexcept { _mm256_storeu_ps(p, a.v); }
+inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v); }
+[[nodiscard]] inline F32 all(float value) noexcept { return {_mm256_set1_ps(value)}; }
+
+[[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm256_add_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {_mm256_sub_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {_mm256_mul_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {_mm256_div_ps(a.v, b.v)}; }
+[[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {_mm256_add_epi32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
+[[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GT_OQ)}; }
+[[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
+[[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm256_and_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm256_or_ps(a.v, b.v)}; }
+
+[[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm256_sqrt_ps(a.v)}; }
+[[nodiscard]] inline F32 abs(F32 a) noexcept { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
+[[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {_mm256_min_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 max(F32 a, F32 b) noexcept { return {_mm256_max_ps(a.v, b.v)}; }
+
+/// yes where m, else no.
+[[nodiscard]] inline F32 select(Mask m, F32 yes, F32 no) noexcept { return {_mm256_blendv_ps(no.v, yes.v, m.v)}; }
+/// a where m, else zero.
+[[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {_mm256_and_ps(m.v, a.v)}; }
+/// 1 where m, else zero.
+[[nodiscard]] inline I32 ones(Mask m) noexcept { return {_mm256_srli_epi32(_mm256_castps_si256(m.v), 31)}; }
+
+/// Towards zero; |a| must stay below 2^31.
+[[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {_mm256_cvttps_epi32(a.v)}; }
+[[nodiscard]] inline F32 truncate(F32 a) noexcept {
+  return {_mm256_round_ps(a.v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC)};
+}
+
+/// To the nearest integer, ties to even (the default rounding mode).
+[[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm256_cvtps_epi32(a.v)}; }
+
+}  // namespace simd
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+#elif defined(__SSE2__)
+
+// shortshot/simd_sse2.hpp: the lane shim on SSE2, 4 lanes: every x86-64. Included by simd.hpp, which says what it must
+// do.
+
+#include <emmintrin.h>
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace simd {
+
+inline constexpr std::size_t lanes = 4;
+
+struct F32 {
+  __m128 v;
+};
+struct I32 {
+  __m128i v;
+};
+struct Mask {
+  __m128 v;
+};
+
+/// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
+[[nodiscard]] inline float root(float value) noexcept { return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(value))); }
+
+[[nodiscard]] inline F32 load(const float* p) noexcept { return {_mm_loadu_ps(p)}; }
+inline void store(float* p, F32 a) noexcept { _mm_storeu_ps(p, a.v); }
+inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a.v); }
+[[nodiscard]] inline F32 all(float value) noexcept { return {_mm_set1_ps(value)}; }
+
+[[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm_add_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {_mm_sub_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {_mm_mul_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {_mm_div_ps(a.v, b.v)}; }
+[[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {_mm_add_epi32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm_cmplt_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {_mm_cmpgt_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm_cmpge_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm_and_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm_or_ps(a.v, b.v)}; }
+
+[[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm_sqrt_ps(a.v)}; }
+[[nodiscard]] inline F32 abs(F32 a) noexcept { return {_mm_andnot_ps(_mm_set1_ps(-0.0f), a.v)}; }
+[[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {_mm_min_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 max(F32 a, F32 b) noexcept { return {_mm_max_ps(a.v, b.v)}; }
+
+/// yes where m, else no.
+[[nodiscard]] inline F32 select(Mask m, F32 yes, F32 no) noexcept {
+  return {_mm_or_ps(_mm_and_ps(m.v, yes.v), _mm_andnot_ps(m.v, no.v))};
+}
+/// a where m, else zero.
+[[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {_mm_and_ps(m.v, a.v)}; }
+/// 1 where m, else zero.
+[[nodiscard]] inline I32 ones(Mask m) noexcept { return {_mm_srli_epi32(_mm_castps_si128(m.v), 31)}; }
+
+/// Towards zero; |a| must stay below 2^31.
+[[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {_mm_cvttps_epi32(a.v)}; }
+[[nodiscard]] inline F32 truncate(F32 a) noexcept { return {_mm_cvtepi32_ps(_mm_cvttps_epi32(a.v))}; }
+
+/// To the nearest integer, ties to even (the default rounding mode).
+[[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm_cvtps_epi32(a.v)}; }
+
+}  // namespace simd
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+#elif defined(__aarch64__)
+
+// shortshot/simd_neon.hpp: the lane shim on NEON, 4 lanes: every aarch64 (32-bit NEON flushes denormals and cannot
+// divide). Included by simd.hpp, which says what it must do.
+
+#include <arm_neon.h>
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace simd {
+
+inline constexpr std::size_t lanes = 4;
+
+struct F32 {
+  float32x4_t v;
+};
+struct I32 {
+  int32x4_t v;
+};
+struct Mask {
+  uint32x4_t v;
+};
+
+/// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
+[[nodiscard]] inline float root(float value) noexcept { return vget_lane_f32(vsqrt_f32(vdup_n_f32(value)), 0); }
+
+[[nodiscard]] inline F32 load(const float* p) noexcept { return {vld1q_f32(p)}; }
+inline void store(float* p, F32 a) noexcept { vst1q_f32(p, a.v); }
+inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
+[[nodiscard]] inline F32 all(float value) noexcept { return {vdupq_n_f32(value)}; }
+
+[[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {vaddq_f32(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {vsubq_f32(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {vmulq_f32(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {vdivq_f32(a.v, b.v)}; }
+[[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {vaddq_s32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {vcltq_f32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {vcgtq_f32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {vcgeq_f32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {vandq_u32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {vorrq_u32(a.v, b.v)}; }
+
+[[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {vsqrtq_f32(a.v)}; }
+[[nodiscard]] inline F32 abs(F32 a) noexcept { return {vabsq_f32(a.v)}; }
+[[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {vbslq_f32(vcltq_f32(a.v, b.v), a.v, b.v)}; }
+[[nodiscard]] inline F32 max(F32 a, F32 b) noexcept { return {vbslq_f32(vcgtq_f32(a.v, b.v), a.v, b.v)}; }
+
+/// yes where m, else no.
+[[nodiscard]] inline F32 select(Mask m, F32 yes, F32 no) noexcept { return {vbslq_f32(m.v, yes.v, no.v)}; }
+/// a where m, else zero.
+[[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept {
+  return {vreinterpretq_f32_u32(vandq_u32(m.v, vreinterpretq_u32_f32(a.v)))};
+}
+/// 1 where m, else zero.
+[[nodiscard]] inline I32 ones(Mask m) noexcept { return {vreinterpretq_s32_u32(vshrq_n_u32(m.v, 31))}; }
+
+/// Towards zero; |a| must stay below 2^31.
+[[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {vcvtq_s32_f32(a.v)}; }
+[[nodiscard]] inline F32 truncate(F32 a) noexcept { return {vrndq_f32(a.v)}; }
+
+/// To the nearest integer, ties to even (the default rounding mode).
+[[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {vcvtnq_s32_f32(a.v)}; }
+
+}  // namespace simd
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+#else
+
+// shortshot/simd_scalar.hpp: the lane shim one lane at a time: microcontrollers, and whatever has no other. Included by
+// simd.hpp, which says what it must do.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace simd {
+
+inline constexpr std::size_t lanes = 1;
+
+struct F32 {
+  float v;
+};
+struct I32 {
+  std::int32_t v;
+};
+struct Mask {
+  bool v;
+};
+
+/// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
+[[nodiscard]] inline float root(float value) noexcept {
+#if defined(__ARM_FP)
+  float result;
+  __asm__("vsqrt.f32 %0, %1" : "=t"(result) : "t"(value));
+  return result;
+#else
+  return __builtin_sqrtf(value);
+#endif
+}
+
+[[nodiscard]] inline F32 load(const float* p) noexcept { return {*p}; }
+inline void store(float* p, F32 a) noexcept { *p = a.v; }
+inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
+[[nodiscard]] inline F32 all(float value) noexcept { return {value}; }
+
+[[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {a.v + b.v}; }
+[[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {a.v - b.v}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {a.v * b.v}; }
+[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {a.v / b.v}; }
+[[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {a.v + b.v}; }
+[[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {a.v < b.v}; }
+[[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {a.v > b.v}; }
+[[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {a.v >= b.v}; }
+[[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
+[[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
+
+[[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {root(a.v)}; }
+[[nodiscard]] inline F32 abs(F32 a) noexcept { return {a.v < 0.0f ? 0.0f - a.v : a.v}; }
+[[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {a.v < b.v ? a.v : b.v}; }
+[[nodiscard]] inline F32 max(F32 a, F32 b) noexcept { return {a.v > b.v ? a.v : b.v}; }
+
+/// yes where m, else no.
+[[nodiscard]] inline F32 select(Mask m, F32 yes, F32 no) noexcept { return {m.v ? yes.v : no.v}; }
+/// a where m, else zero.
+[[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {m.v ? a.v : 0.0f}; }
+/// 1 where m, else zero.
+[[nodiscard]] inline I32 ones(Mask m) noexcept { return {m.v ? 1 : 0}; }
+
+/// Towards zero; |a| must stay below 2^31.
+[[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {static_cast<std::int32_t>(a.v)}; }
+[[nodiscard]] inline F32 truncate(F32 a) noexcept { return {static_cast<float>(static_cast<std::int32_t>(a.v))}; }
+
+/// To the nearest integer, ties to even; |a| <= 2^22. Adding 1.5 * 2^23 leaves the integer in the low mantissa bits:
+/// the same bits on every machine, with no call into libm.
+[[nodiscard]] inline I32 round_to_int(F32 a) noexcept {
+  const float shifted = a.v + 12582912.0f;
+  std::int32_t bits = 0;
+  std::memcpy(&bits, &shifted, sizeof bits);
+  return {bits - 0x4B400000};
+}
+
+}  // namespace simd
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+#endif
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace simd {
+
+/// f applied lane by lane, for the rare function that is not worth a vector version.
+template <class Function>
+[[nodiscard]] inline F32 apply(Function f, F32 a) noexcept {
+  float values[lanes];
+  store(values, a);
+  for (float& value : values) value = f(value);
+  return load(values);
+}
+
+/// The largest lane.
+[[nodiscard]] inline float largest(F32 a) noexcept {
+  float values[lanes];
+  store(values, a);
+  float result = values[0];
+  for (const float value : values) result = value > result ? value : result;
+  return result;
+}
+
+/// Sum of all lanes.
+[[nodiscard]] inline std::int32_t sum(I32 a) noexcept {
+  std::int32_t values[lanes];
+  store(values, a);
+  std::int32_t total = 0;
+  for (const std::int32_t value : values) total += value;
+  return total;
+}
+
+}  // namespace simd
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace math {
+
+/// True for finite numbers, by the exponent bits: holds under -ffast-math too, where comparisons with NaN do not.
+[[nodiscard]] inline bool is_finite(float value) noexcept {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return (bits & 0x7F800000u) != 0x7F800000u;
+}
+
+[[nodiscard]] inline bool is_finite(const float (&v)[3]) noexcept {
+  return is_finite(v[0]) && is_finite(v[1]) && is_finite(v[2]);
+}
+
+/// atan(t) / 2 pi for t in [0, 1], within 2.3e-8 turns. A minimax fit with both ends exact: 0 -> 0 and 1 -> 1/8,
+/// because points on axes and diagonals lie on the borders of cells.
+[[nodiscard]] inline simd::F32 octant_turns(simd::F32 t) noexcept {
+  using simd::all;
+  const simd::F32 s = t * t;
+  simd::F32 p = all(-0.0006326765287667513f);
+  p = p * s + all(0.003435686230659485f);
+  p = p * s + all(-0.008838068693876266f);
+  p = p * s + all(0.01530371978878975f);
+  p = p * s + all(-0.02212062105536461f);
+  p = p * s + all(0.03174300864338875f);
+  p = p * s + all(-0.053045883774757385f);
+  p = p * s + all(0.15915483236312866f);
+  return p * t;
+}
+
+/// The angle of (x, y) split into a multiple of a quarter turn and a signed rest of at most an eighth, in turns, for
+/// y's absolute value: angle = quarter + rest lies in [0, 1/2]. Kept apart so that whoever adds an offset rounds once.
+struct HalfTurns {
+  simd::F32 quarter;
+  simd::F32 rest;
+};
+
+[[nodiscard]] inline HalfTurns half_turns(simd::F32 x, simd::F32 y) noexcept {
+  using simd::all;
+  const simd::F32 ax = simd::abs(x);
+  const simd::F32 ay = simd::abs(y);
+  // The smallest normal number stands in for 0 / 0: the angle of (0, 0) is 0.
+  const simd::F32 eighth = octant_turns(simd::min(ax, ay) / simd::max(simd::max(ax, ay), all(1.17549435e-38f)));
+  const simd::Mask steep = ay > ax;
+  const simd::Mask backward = x < all(0.0f);
+  const simd::F32 quarter = simd::select(steep, all(0.25f), simd::keep(backward, all(0.5f)));
+  const simd::F32 turned = simd::select(steep, all(0.0f) - eighth, eighth);
+  return {quarter, simd::select(backward, all(0.0f) - turned, turned)};
+}
+
+/// The angle from the z axis, 0 at z > 0 to 1 at z < 0 (theta / pi); rho >= 0 is the distance from the axis.
+[[nodiscard]] inline simd::F32 elevation(simd::F32 rho, simd::F32 z) noexcept {
+  const HalfTurns half = half_turns(z, rho);
+  const simd::F32 turns = half.quarter + half.rest;
+  return turns + turns;
+}
+
+/// (atan2(y, x) + pi) / 2 pi in [0, 1]: 1 for y = 0, x < 0.
+[[nodiscard]] inline simd::F32 azimuth(simd::F32 x, simd::F32 y) noexcept {
+  using simd::all;
+  const HalfTurns half = half_turns(x, y);
+  const simd::Mask below = y < all(0.0f);
+  return select(below, all(0.5f) - half.quarter, all(0.5f) + half.quarter) +
+         select(below, all(0.0f) - half.rest, half.rest);
+}
+
+/// Natural logarithm of a positive normal number, absolute error below 2e-7 near 1, relative below 2e-7 elsewhere.
+[[nodiscard]] inline float log(float value) noexcept {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  // Exponent such that the mantissa m lies in [sqrt(1/2), sqrt(2)): the series below is symmetric about 1.
+  const std::int32_t exponent = static_cast<std::int32_t>((bits + 0x004AFB0Du) >> 23) - 127;
+  bits -= static_cast<std::uint32_t>(exponent) << 23;
+  float m = 0.0f;
+  std::memcpy(&m, &bits, sizeof m);
+  const float s = (m - 1.0f) / (m + 1.0f);  // ln m = 2 artanh s, |s| < 0.172
+  const float s2 = s * s;
+  const float artanh = s + s * s2 * (0.333333333f + s2 * (0.2f + s2 * (0.142857143f + s2 * 0.111111111f)));
+  return static_cast<float>(exponent) * 0.693147181f + 2.0f * artanh;
+}
+
+/// A number kept as the sum of two floats, the second at most 2^-7 of the first: a few bits more than one float has.
+struct Sum2 {
+  float high;
+  float low;
+};
+
+/// Cube root of a positive normal number; high + low is within 2e-9 of it, so that it can be rounded once, at the end.
+[[nodiscard]] inline Sum2 cbrt(float value) noexcept {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  bits = bits / 3u + 0x2A5137A0u;  // exponent / 3: a guess within 4 %
+  float root = 0.0f;
+  std::memcpy(&root, &bits, sizeof root);
+  for (int step = 0; step < 2; ++step) {  // Halley: to 2e-7
+    const float cube = root * root * root;
+    root = root * (cube + 2.0f * value) / (2.0f * cube + value);
+  }
+  // The cube of an 8-bit number is exact in float, and so is its distance to the value. With root = high + low:
+  // value - high^3 = low (3 high^2 + 3 high low + low^2).
+  std::memcpy(&bits, &root, sizeof bits);
+  bits &= 0xFFFF0000u;
+  float high = 0.0f;
+  std::memcpy(&high, &bits, sizeof high);
+  const float low = root - high;
+  const float rest = value - high * high * high;
+  return {high, rest / (3.0f * high * (high + low) + low * low)};
+}
+
+/// The largest power of two not above a positive normal number.
+[[nodiscard]] inline float power_of_two_below(float value) noexcept {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  bits &= 0x7F800000u;
+  float power = 0.0f;
+  std::memcpy(&power, &bits, sizeof power);
+  return power;
+}
+
+/// What length() needs to know of vectors no longer than `longest`: 1.5 * 2^23 quanta, each 2^-10 of its power of two.
+[[nodiscard]] inline float length_splitter(float longest) noexcept { return power_of_two_below(longest) * 12288.0f; }
+
+/// sqrt(x^2 + y^2 + z^2), correctly rounded but for a few cases in a million. Points of a regular grid lie exactly on
+/// the borders of shells, where one bit decides which neighbouring shell gets a vote; the published code has double.
+/// Each argument is split in a multiple of a common quantum, whose squares add up exactly, and a small rest.
+[[nodiscard]] inline simd::F32 length(simd::F32 x, simd::F32 y, simd::F32 z, float splitter) noexcept {
+  using simd::F32;
+  const F32 quantum = simd::all(splitter);
+  const auto coarse = [&](F32 v) { return (v + quantum) - quantum; };
+  const F32 cx = coarse(x);
+  const F32 cy = coarse(y);
+  const F32 cz = coarse(z);
+  const F32 exact = cx * cx + cy * cy + cz * cz;
+  const F32 rest = (x - cx) * (x + cx) + (y - cy) * (y + cy) + (z - cz) * (z + cz);
+
+  const F32 root = simd::sqrt(exact + rest);
+  const F32 coarse_root = coarse(root);
+  const F32 error = (exact - coarse_root * coarse_root) + (rest - (root - coarse_root) * (root + coarse_root));
+  return root + error / simd::max(root + root, simd::all(1.17549435e-38f));
+}
+
+}  // namespace math
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/status.hpp: the one way in which the library reports that something is wrong.
+
+namespace shortshot {
+
+/// Result of every call that can fail. Whatever is not `ok` comes with a zeroed output, never with NaN.
+// (version 14 of it does not know attributes of enumerations)
+// clang-format off
+enum class [[nodiscard]] Status : std::uint8_t {
+  ok,
+  empty_cloud,         ///< the cloud has no point, or no point with three finite coordinates
+  bad_view,            ///< the view's memory cannot be what it says (null pointer, field outside the point, too short)
+  bad_radius,          ///< a radius is not a finite number above zero, or its square leaves the range of float
+  bad_keypoint,        ///< a key point's index lies outside the cloud
+  invalid_keypoint,    ///< a key point's position is not finite
+  missing_colors,      ///< the descriptor needs colours and the cloud has none
+  missing_normals,     ///< the descriptor needs normals and the cloud has none
+  too_few_neighbors,   ///< no neighbour to describe, or fewer than five for a local reference frame
+  too_many_neighbors,  ///< the neighbourhood does not fit the workspace; Neighborhood::found says what it takes
+  ambiguous_frame,     ///< collinear or symmetric neighbourhood: two principal axes cannot be told apart
+  bad_frame,           ///< a given frame is not orthonormal, or not finite
+  bad_leaf,            ///< a voxel size is not a finite number above zero
+  out_of_memory,       ///< caller-provided memory is too small for the cloud
+  not_organized,       ///< the cloud is no image of a pinhole camera, so it has no image window to search
+};
+// clang-format on
+
+inline constexpr int status_count = static_cast<int>(Status::not_organized) + 1;
+
+inline namespace SHORTSHOT_ISA {
+
+/// One English sentence for a status. Static storage; never null.
+[[nodiscard]] constexpr const char* message(Status status) noexcept {
+  switch (status) {
+    case Status::ok: return "ok";
+    case Status::empty_cloud: return "the cloud has no valid point";
+    case Status::bad_view: return "the cloud view does not fit its memory";
+    case Status::bad_radius: return "a radius must be finite and above zero";
+    case Status::bad_keypoint: return "the key point's index lies outside the cloud";
+    case Status::invalid_keypoint: return "the key point is not finite";
+    case Status::missing_colors: return "the descriptor needs colours and the cloud has none";
+    case Status::missing_normals: return "the descriptor needs normals and the cloud has none";
+    case Status::too_few_neighbors: return "too few neighbours within the radius";
+    case Status::too_many_neighbors: return "more neighbours than the workspace can hold";
+    case Status::ambiguous_frame: return "the neighbourhood is too symmetric for a local reference frame";
+    case Status::bad_frame: return "the given frame is not orthonormal";
+    case Status::bad_leaf: return "a voxel size must be finite and above zero";
+    case Status::out_of_memory: return "the memory provided is too small";
+    case Status::not_organized: return "the cloud is not an image of a pinhole camera";
+  }
+  return "unknown status";
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+namespace shortshot {
+
+/// Three float coordinates per point: where each one of point 0 lies, and how far it is to the same one of point 1.
+/// Covers x y z x y z ..., arrays of structs with padding, and separate x, y, z arrays. No alignment is assumed.
+struct Float3Channel {
+  const unsigned char* x;
+  const unsigned char* y;
+  const unsigned char* z;
+  std::size_t stride_bytes;
+};
+
+/// Three colour bytes per point, sRGB. The three pointers express the order r g b, b g r (PCL, packed floats) or
+/// planes.
+struct ColorChannel {
+  const unsigned char* r;
+  const unsigned char* g;
+  const unsigned char* b;
+  std::size_t stride_bytes;
+};
+
+/// A borrowed point cloud: nothing is copied, nothing is owned, the memory must outlive the view.
+/// Positions in metres (any unit works if the radius has the same). Points that are not finite are never neighbours.
+/// A channel whose first pointer is null is absent. `width * height == size`; height is 1 for unorganised clouds.
+/// Trivial type with plain members, the same in every translation unit; reading it is thread-safe.
+struct CloudView {
+  Float3Channel points;
+  ColorChannel colors;
+  Float3Channel normals;
+  std::size_t size;
+  std::size_t width;
+  std::size_t height;
+};
+
+struct Point {
+  float x, y, z;
+};
+
+/// An sRGB colour.
+struct Rgb {
+  std::uint8_t r, g, b;
+};
+
+inline namespace SHORTSHOT_ISA {
+
+[[nodiscard]] inline bool has_colors(const CloudView& cloud) noexcept { return cloud.colors.r != nullptr; }
+[[nodiscard]] inline bool has_normals(const CloudView& cloud) noexcept { return cloud.normals.x != nullptr; }
+
+namespace detail {
+
+/// A channel whose x, y and z follow each other by `step` bytes; absent if there is no memory.
+[[nodiscard]] inline Float3Channel float3_channel(const float* first, std::size_t step, std::size_t stride) noexcept {
+  if (first == nullptr) return {};
+  const auto* x = reinterpret_cast<const unsigned char*>(first);
+  return {x, x + step, x + 2 * step, stride};
+}
+
+[[nodiscard]] inline ColorChannel color_channel(const unsigned char* r, std::size_t step, std::size_t stride) noexcept {
+  if (r == nullptr) return {};
+  return {r, r + step, r + 2 * step, stride};
+}
+
+}  // namespace detail
+
+/// View of `count` points x y z (floats). `stride_bytes` is the distance between points.
+[[nodiscard]] inline CloudView view_xyz(const float* xyz, std::size_t count,
+                                        std::size_t stride_bytes = 3 * sizeof(float)) noexcept {
+  CloudView view{};
+  view.points = detail::float3_channel(xyz, sizeof(float), stride_bytes);
+  view.size = count;
+  view.width = count;
+  view.height = 1;
+  return view;
+}
+
+/// View of `count` points x y z (floats) and their colours r g b (bytes), each with its own stride.
+[[nodiscard]] inline CloudView view_xyz_rgb(const float* xyz, const std::uint8_t* rgb, std::size_t count,
+                                            std::size_t xyz_stride_bytes = 3 * sizeof(float),
+                                            std::size_t rgb_stride_bytes = 3) noexcept {
+  CloudView view = view_xyz(xyz, count, xyz_stride_bytes);
+  view.colors = detail::color_channel(rgb, 1, rgb_stride_bytes);
+  return view;
+}
+
+/// The same cloud as an image of `width * height` pixels, row by row, for OrganizedSearch.
+[[nodiscard]] inline CloudView organized(CloudView cloud, std::size_t width, std::size_t height) noexcept {
+  cloud.width = width;
+  cloud.height = height;
+  return cloud;
+}
+
+/// Is this a view that can be read at all? Every entry point asks once.
+[[nodiscard]] inline Status check(const CloudView& cloud) noexcept {
+  if (cloud.size == 0) return Status::empty_cloud;
+  if (cloud.size > 0xFFFFFFFFu) return Status::bad_view;  // indices have 32 bits
+  if (cloud.points.x == nullptr || cloud.points.y == nullptr || cloud.points.z == nullptr) return Status::bad_view;
+  if (has_colors(cloud) && (cloud.colors.g == nullptr || cloud.colors.b == nullptr)) return Status::bad_view;
+  if (has_normals(cloud) && (cloud.normals.y == nullptr || cloud.normals.z == nullptr)) return Status::bad_view;
+  return Status::ok;
+}
+
+/// Element `index` of a channel. memcpy, because a PointCloud2 blob need not be aligned.
+[[nodiscard]] inline Point read(const Float3Channel& channel, std::size_t index) noexcept {
+  const std::size_t offset = index * channel.stride_bytes;
+  Point p{};
+  std::memcpy(&p.x, channel.x + offset, sizeof(float));
+  std::memcpy(&p.y, channel.y + offset, sizeof(float));
+  std::memcpy(&p.z, channel.z + offset, sizeof(float));
+  return p;
+}
+
+[[nodiscard]] inline Point point(const CloudView& cloud, std::size_t index) noexcept {
+  return read(cloud.points, index);
+}
+
+[[nodiscard]] inline bool is_finite(const Point& p) noexcept {
+  return math::is_finite(p.x) && math::is_finite(p.y) && math::is_finite(p.z);
+}
+
+/// The colour of point `index`; the cloud must have colours.
+[[nodiscard]] inline Rgb color(const CloudView& cloud, std::size_t index) noexcept {
+  const std::size_t offset = index * cloud.colors.stride_bytes;
+  return {cloud.colors.r[offset], cloud.colors.g[offset], cloud.colors.b[offset]};
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// PointField datatypes that can be read in place.
+inline constexpr int field_uint32 = 6;
+inline constexpr int field_float32 = 7;
+
+[[nodiscard]] inline bool is_little_endian() noexcept {
+  const std::uint16_t one = 1;
+  unsigned char first = 0;
+  std::memcpy(&first, &one, 1);
+  return first == 1;
+}
+
+template <class Name>
+[[nodiscard]] bool is_named(const Name& name, const char* text) noexcept {
+  return name == text;
+}
+
+/// Offset of a field with this name and a readable type, or -1.
+template <class Message>
+[[nodiscard]] std::int64_t offset_of(const Message& message, const char* name, bool packed_color) noexcept {
+  for (const auto& field : message.fields) {
+    if (!is_named(field.name, name)) continue;
+    const int type = static_cast<int>(field.datatype);
+    const bool readable = type == field_float32 || (packed_color && type == field_uint32);
+    const bool inside = static_cast<std::uint64_t>(field.offset) + 4 <= static_cast<std::uint64_t>(message.point_step);
+    return readable && inside ? static_cast<std::int64_t>(field.offset) : -1;
+  }
+  return -1;
+}
+
+}  // namespace detail
+
+/// View of a message with members data (data(), size()), fields (name, offset, datatype), point_step, row_step, width,
+/// height and is_bigendian. Fields x, y, z must be FLOAT32; colour is a field `rgb` or `rgba`, a FLOAT32 or UINT32 with
+/// 0xAARRGGBB packed into it. The view borrows the message's bytes.
+///
+/// Status bad_view (and an empty view): no x, y or z of that type, a field outside point_step, data shorter than
+/// width * height points, padded rows, or the other byte order. No allocation.
+template <class Message>
+[[nodiscard]] Status view_point_cloud2(const Message& message, CloudView& view) noexcept {
+  view = CloudView{};
+  const std::int64_t x = detail::offset_of(message, "x", false);
+  const std::int64_t y = detail::offset_of(message, "y", false);
+  const std::int64_t z = detail::offset_of(message, "z", false);
+  if (x < 0 || y < 0 || z < 0) return Status::bad_view;
+  if (static_cast<bool>(message.is_bigendian) == detail::is_little_endian()) return Status::bad_view;
+
+  const auto step = static_cast<std::size_t>(message.point_step);
+  const auto width = static_cast<std::size_t>(message.width);
+  const auto height = static_cast<std::size_t>(message.height);
+  if (height > 1 && static_cast<std::uint64_t>(message.row_step) != static_cast<std::uint64_t>(width) * step) {
+    return Status::bad_view;
+  }
+  if (width == 0 || height == 0) return Status::empty_cloud;
+  if (message.data.size() / step / width < height) return Status::bad_view;
+
+  const auto* data = reinterpret_cast<const unsigned char*>(message.data.data());
+  view.points = {data + x, data + y, data + z, step};
+  view.size = width * height;
+  view.width = width;
+  view.height = height;
+
+  std::int64_t color = detail::offset_of(message, "rgb", true);
+  if (color < 0) color = detail::offset_of(message, "rgba", true);
+  if (color >= 0) {
+    const unsigned char* packed = data + color;
+    const bool little = detail::is_little_endian();
+    view.colors = {packed + (little ? 2 : 1), packed + (little ? 1 : 2), packed + (little ? 0 : 3), step};
+  }
+  return Status::ok;
+}
+
+/// A message that dies at the end of the statement cannot be viewed.
+template <class Message>
+Status view_point_cloud2(const Message&& message, CloudView& view) = delete;
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/adapters/structs.hpp: views of containers of structs, PCL's clouds among them, by their members' names.
+//
+// No other library is included: whatever has the members is understood. A point needs float x, y, z (in that or any
+// order, with any padding) and, for colour, one-byte r, g, b (in any order: PCL keeps b, g, r, a).
+
+#include <type_traits>
+#include <utility>
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+template <class P, class = void>
+struct HasRgb : std::false_type {};
+template <class P>
+struct HasRgb<P, std::void_t<decltype(P::r), decltype(P::g), decltype(P::b)>>
+    : std::bool_constant<sizeof(P::r) == 1 && sizeof(P::g) == 1 && sizeof(P::b) == 1> {};
+
+template <class C, class = void>
+struct HasPoints : std::false_type {};
+template <class C>
+struct HasPoints<C, std::void_t<decltype(std::declval<const C&>().points.data())>> : std::true_type {};
+
+template <class Member>
+[[nodiscard]] const unsigned char* bytes_of(const Member& member) noexcept {
+  return reinterpret_cast<const unsigned char*>(&member);
+}
+
+}  // namespace detail
+
+/// View of `count` structs with members x, y, z and, if they have them, r, g, b.
+template <class P>
+[[nodiscard]] CloudView view_of(const P* points, std::size_t count) noexcept {
+  static_assert(std::is_same<std::remove_cv_t<decltype(P::x)>, float>::value &&
+                    std::is_same<std::remove_cv_t<decltype(P::y)>, float>::value &&
+                    std::is_same<std::remove_cv_t<decltype(P::z)>, float>::value,
+                "view_of() supports points with float members x, y and z");
+  CloudView view{};
+  view.size = count;
+  view.width = count;
+  view.height = 1;
+  if (points == nullptr || count == 0) return view;  // to be refused by check()
+  view.points = {detail::bytes_of(points->x), detail::bytes_of(points->y), detail::bytes_of(points->z), sizeof(P)};
+  if constexpr (detail::HasRgb<P>::value) {
+    view.colors = {detail::bytes_of(points->r), detail::bytes_of(points->g), detail::bytes_of(points->b), sizeof(P)};
+  }
+  return view;
+}
+
+/// View of a std::vector, std::array or anything else with data() and size(); or of a pcl::PointCloud-shaped object:
+/// `points` with data() and size(), and `width` and `height`.
+template <class Container>
+[[nodiscard]] CloudView view_of(const Container& cloud) noexcept {
+  if constexpr (detail::HasPoints<Container>::value) {
+    const CloudView view = view_of(cloud.points.data(), cloud.points.size());
+    return static_cast<std::size_t>(cloud.width) * cloud.height == view.size
+               ? organized(view, cloud.width, cloud.height)
+               : view;
+  } else {
+    return view_of(cloud.data(), cloud.size());
+  }
+}
+
+/// A container that dies at the end of the statement cannot be viewed.
+template <class Container>
+CloudView view_of(const Container&& cloud) = delete;
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no libm, no static
+// initialiser. Freestanding but for <array>, <cstddef>, <cstdint>, <cstring> and <type_traits>.
+
+// shortshot/describe_at.hpp: one key point from cloud to descriptor: search, frame and kernel in one call.
+
+// shortshot/color.hpp: sRGB bytes -> CIELAB, and the colour distance of CSHOT and SCSH.
+//
+// Both existing codes quantise the CIE ratios to 1/4000 and look their cube root up in a table of 4000 entries; here
+// the same quantised ratio goes through a computed root, so that 16 KB of tables are not needed and pure white, which
+// reads past the end of both tables, is defined. sRGB linearisation keeps its 1 KB table, built at compile time.
+
+#include <array>
+
+namespace shortshot {
+
+/// CIELAB colour: L in 0..100, a and b clamped to -120..120 as both existing codes do.
+struct Lab {
+  float L, a, b;
+};
+
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// n-th root by Newton's iteration, for tables that are built while compiling; never called at run time.
+constexpr double nth_root(double value, int n) noexcept {
+  double root = 1.0;
+  for (int step = 0; step < 100; ++step) {
+    double power = 1.0;
+    for (int k = 1; k < n; ++k) power *= root;
+    const double next = ((n - 1) * root + value / power) / n;
+    if (next == root) break;
+    root = next;
+  }
+  return root;
+}
+
+/// Natural logarithm of 0.05 <= value <= 1 to 1e-6, likewise only while compiling: ln v = 2 artanh((v - 1) / (v + 1)).
+constexpr double log_series(double value) noexcept {
+  const double s = (value - 1.0) / (value + 1.0);
+  double power = s;
+  double sum = 0.0;
+  for (int k = 1; k < 120; k += 2) {
+    sum += power / k;
+    power *= s * s;
+  }
+  return 2.0 * sum;
+}
+
+/// ((c + 0.055) / 1.055)^2.4 with the existing codes' own roundings, because one bit more or less would move some
+/// ratios across a step of their tables: the base is a float, and so is the exponent.
+constexpr float srgb_power(float c) noexcept {
+  const double base = static_cast<double>((c + 0.055f) / 1.055f);
+  const double excess = static_cast<double>(2.4f) - 2.4;
+  return static_cast<float>(base * base * nth_root(base * base, 5) * (1.0 + excess * log_series(base)));
+}
+
+constexpr std::array<float, 256> make_srgb_to_linear() noexcept {
+  std::array<float, 256> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const float c = static_cast<float>(i) / 255.0f;
+    table[i] = c > 0.04045f ? srgb_power(c) : c / 12.92f;
+  }
+  return table;
+}
+
+inline constexpr std::array<float, 256> srgb_to_linear = make_srgb_to_linear();
+
+}  // namespace detail
+
+/// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
+struct PublishedLab {
+  [[nodiscard]] static float root(float t) noexcept {
+    if (!(t > 0.008856f)) return 7.787f * t + 16.0f / 116.0f;
+    // t^0.3333 = t^(1/3) exp(-ln t / 30000), and exp(e) = 1 + e + e^2 / 2 for |e| < 2e-4.
+    const math::Sum2 cube_root = math::cbrt(t);
+    const float e = math::log(t) * (-1.0f / 30000.0f);
+    return cube_root.high + (cube_root.low + (cube_root.high + cube_root.low) * (e + 0.5f * e * e));
+  }
+};
+
+/// CIELAB as PCL's CSHOT computes it: the cube root above the knee, 7.87 t + 16/116 below.
+struct PclLab {
+  [[nodiscard]] static float root(float t) noexcept {
+    if (!(t > 0.008856f)) return 7.87f * t + 16.0f / 116.0f;
+    const math::Sum2 cube_root = math::cbrt(t);
+    return cube_root.high + cube_root.low;
+  }
+};
+
+/// sRGB bytes to CIELAB by `Rule` (PublishedLab or PclLab). Source: what the published SSH / SCSH code and PCL 1.13
+/// compute; within 1e-4 of either in L, a and b. No allocation, reentrant.
+template <class Rule>
+[[nodiscard]] inline Lab to_lab(Rgb rgb) noexcept {
+  const float r = detail::srgb_to_linear[rgb.r];
+  const float g = detail::srgb_to_linear[rgb.g];
+  const float b = detail::srgb_to_linear[rgb.b];
+  const float x = (r * 0.412453f + g * 0.357580f + b * 0.180423f) / 0.95047f;
+  const float y = r * 0.212671f + g * 0.715160f + b * 0.072169f;
+  const float z = (r * 0.019334f + g * 0.119193f + b * 0.950227f) / 1.08883f;
+
+  // Truncated to a table's step, as published.
+  const auto root = [](float ratio) {
+    return Rule::root(static_cast<float>(static_cast<int>(ratio * 4000.0f)) / 4000.0f);
+  };
+  const float fx = root(x);
+  const float fy = root(y);
+  const float fz = root(z);
+
+  const auto clamped = [](float value) { return value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
+  const float lightness = 116.0f * fy - 16.0f;
+  return {lightness > 100.0f ? 100.0f : lightness, clamped(500.0f * (fx - fy)), clamped(200.0f * (fy - fz))};
+}
+
+/// CSHOT's colour distance in [0, 1]: L1 over L / 100 and the mean of a / 120 and b / 120, over three.
+[[nodiscard]] inline float color_distance(const Lab& p, const Lab& q) noexcept {
+  const auto magnitude = [](float value) { return value < 0.0f ? -value : value; };
+  const float chroma = magnitude(p.a - q.a) / 120.0f + magnitude(p.b - q.b) / 120.0f;
+  const float distance = (magnitude(p.L - q.L) / 100.0f + chroma / 2.0f) / 3.0f;
+  return distance < 1.0f ? distance : 1.0f;  // also for a NaN of somebody else's Lab
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/describe.hpp: the kernel. One gathered neighbourhood and a frame in, one descriptor out.
+//
+// Neighbours go through in chunks, each chunk in passes over small arrays: locate (local spherical coordinates), then
+// per part: signal, votes, scatter. Votes are rounded to integers before they are added up (fixed_point.hpp).
+
+// shortshot/descriptor.hpp: what a descriptor is made of. Pure types: sizes, offsets and layout are compile-time facts.
+
+// shortshot/grid.hpp: the spherical grid of a part, sizes and index arithmetic only.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// Divisions of the support sphere: `Radial` shells, `Elevation` cells from the frame's +z to its -z, `Azimuth` cells
+/// counter-clockwise from the frame's -x. The paper's r, e, a (equation 5): n = r * e * a cells.
+template <int Radial, int Elevation, int Azimuth>
+struct SphericalGrid {
+  static_assert(Radial >= 1 && Elevation >= 1 && Azimuth >= 1,
+                "SphericalGrid<Radial, Elevation, Azimuth> supports one or more divisions of each kind");
+  static_assert(Radial <= 1024 && Elevation <= 1024 && Azimuth <= 1024,
+                "SphericalGrid<Radial, Elevation, Azimuth> supports up to 1024 divisions of each kind");
+  static constexpr int radial = Radial;
+  static constexpr int elevation = Elevation;
+  static constexpr int azimuth = Azimuth;
+  static constexpr int cells = Radial * Elevation * Azimuth;
+
+  /// Position of a cell in the published layout: radius fastest, azimuth slowest.
+  [[nodiscard]] static constexpr int index(int r, int e, int a) noexcept { return r + Radial * (e + Elevation * a); }
+};
+
+/// Shells of equal width: the published default. `u` is the distance over the support radius, in [0, 1].
+struct LinearRadius {
+  template <int Shells>
+  [[nodiscard]] static simd::F32 position(simd::F32 u) noexcept {
+    return u * simd::all(static_cast<float>(Shells));
+  }
+};
+
+/// The published logarithmic shells: the innermost one reaches out to R * Numerator / Denominator, the others share
+/// the rest evenly in log r. (The published default, 0.025 m, is 1/4 of a support radius of 0.1 m.)
+template <int Numerator = 1, int Denominator = 4>
+struct LogRadius {
+  static_assert(0 < Numerator && Numerator < Denominator, "LogRadius<N, D> supports ratios 0 < N / D < 1");
+  template <int Shells>
+  [[nodiscard]] static simd::F32 position(simd::F32 u) noexcept {
+    const float log_of_ratio = math::log(static_cast<float>(Numerator) / static_cast<float>(Denominator));
+    return simd::apply(
+        [log_of_ratio](float distance) {
+          // Distances below the smallest normal number have no logarithm; any tiny one lies in the innermost shell.
+          const float log_of_distance = math::log(distance > 1e-30f ? distance : 1e-30f);
+          return static_cast<float>(Shells - 1) * (log_of_distance - log_of_ratio) / -log_of_ratio + 1.0f;
+        },
+        u);
+  }
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/voting.hpp: how one point is shared among neighbouring cells, written once over N axes.
+//
+// A rule has two steps. split() takes a position along one axis, in cells, and finds the cell it lies in and the nearer
+// neighbouring cell, its partner, with the share of each. combine() makes a list of votes from the shares of all axes:
+// axis 0 radius, 1 elevation, 2 azimuth, and 3 the histogram's signal where the part has one.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// What lies beyond the last cell of an axis: nothing (radius, elevation, signal) or the first cell (azimuth).
+enum class Beyond { nothing, first_cell };
+
+/// One axis of a part: its number of cells, the distance of two neighbouring cells in the descriptor, and its ends.
+template <int Cells, int Stride, Beyond End>
+struct Axis {
+  static constexpr int cells = Cells;
+  static constexpr int stride = Stride;
+  static constexpr Beyond end = End;
+};
+
+/// A point's share along one axis. Indices are whole numbers in floats: exact, and multiplied without integer lanes.
+struct Share {
+  simd::F32 cell;     ///< index of the primary cell, times the axis' stride
+  simd::F32 partner;  ///< index of the partner cell minus that of the primary one; 0 where there is no partner
+  simd::F32 weight;   ///< the primary cell's share; the partner's is 1 - weight
+  simd::Mask has_partner;
+};
+
+/// The votes of one point: `Count` indices into the part and their weights.
+template <int Count>
+struct Votes {
+  simd::F32 index[Count];
+  simd::F32 weight[Count];
+};
+
+namespace detail {
+
+/// The cell of a position, clamped to the axis.
+template <class Axis>
+[[nodiscard]] inline simd::F32 clamped_cell(simd::F32 position) noexcept {
+  const simd::F32 cell = simd::truncate(position);
+  return simd::max(simd::all(0.0f), simd::min(cell, simd::all(static_cast<float>(Axis::cells - 1))));
+}
+
+/// The share of a position whose distance from its cell's lower border is `fraction` (in cells).
+template <class Axis>
+[[nodiscard]] inline Share share(simd::F32 cell, simd::F32 fraction) noexcept {
+  using simd::all;
+  constexpr auto stride = static_cast<float>(Axis::stride);
+  constexpr auto last = static_cast<float>(Axis::cells - 1);
+  const simd::F32 weight = all(1.0f) - simd::abs(fraction - all(0.5f));
+  const simd::F32 index = cell * all(stride);
+  if constexpr (Axis::cells == 1) return {index, all(0.0f), weight, all(1.0f) < all(0.0f)};
+
+  const simd::Mask upper = fraction > all(0.5f);
+  const simd::F32 step = select(upper, all(stride), all(-stride));
+  const simd::F32 neighbor = cell + select(upper, all(1.0f), all(-1.0f));
+  const simd::Mask below = neighbor < all(0.0f);
+  const simd::Mask above = neighbor > all(last);
+  if constexpr (Axis::end == Beyond::first_cell) {
+    const simd::F32 wrapped = select(below, all(last * stride), select(above, all(-last * stride), step));
+    return {index, wrapped, weight, all(0.0f) < all(1.0f)};
+  }
+  const simd::Mask inside = (neighbor >= all(0.0f)) & (all(last) >= neighbor);
+  return {index, keep(inside, step), weight, inside};
+}
+
+template <int Axes>
+[[nodiscard]] inline simd::F32 primary_index(const Share (&shares)[Axes]) noexcept {
+  simd::F32 index = shares[0].cell;
+  for (int i = 1; i < Axes; ++i) index = index + shares[i].cell;
+  return index;
+}
+
+}  // namespace detail
+
+/// The additive rule of the published SSH / SCSH code: the shares of all axes ADD UP in the primary cell, and each
+/// axis' partner gets the same sum with that axis' share replaced by the partner's. At most 1 + N cells a point, no
+/// diagonal ones. Known properties, kept on purpose:
+/// * a partner beyond the ends of radius, elevation or signal is dropped, and its weight lost;
+/// * the sum of a point's votes depends on where it lies, and jumps when it crosses a border;
+/// * a position on the very end of an axis (phi = 180 degrees) counts as the LOWER border of the last cell;
+/// * `FlipRadius`: the signal's partner also gets the radial PARTNER's share in place of the radial cell's.
+template <bool FlipRadius>
+struct AdditiveVoting {
+  template <int Axes>
+  static constexpr int votes = Axes + 1;
+
+  template <class Axis>
+  [[nodiscard]] static Share split(simd::F32 position) noexcept {
+    return detail::share<Axis>(detail::clamped_cell<Axis>(position), position - simd::truncate(position));
+  }
+
+  template <int Axes>
+  [[nodiscard]] static Votes<Axes + 1> combine(const Share (&shares)[Axes]) noexcept {
+    using simd::all;
+    simd::F32 sum = shares[0].weight;
+    for (int i = 1; i < Axes; ++i) sum = sum + shares[i].weight;
+
+    Votes<Axes + 1> votes;
+    votes.index[0] = detail::primary_index(shares);
+    votes.weight[0] = sum;
+    for (int i = 0; i < Axes; ++i) {
+      simd::F32 weight = sum + swap_share(shares[i]);
+      if (FlipRadius && i == 3) weight = weight + swap_share(shares[0]);
+      votes.index[i + 1] = votes.index[0] + shares[i].partner;
+      votes.weight[i + 1] = keep(shares[i].has_partner, weight);
+    }
+    return votes;
+  }
+
+ private:
+  /// What a sum of shares changes by when a primary share w is replaced by its partner's, 1 - w.
+  [[nodiscard]] static simd::F32 swap_share(const Share& share) noexcept {
+    return simd::all(1.0f) - (share.weight + share.weight);
+  }
+};
+
+/// The published rule to the last quirk: the library's default.
+using PublishedVoting = AdditiveVoting<true>;
+
+/// The paper's equation (2): a point counts once, in the cell it falls into.
+struct HardVoting {
+  template <int Axes>
+  static constexpr int votes = 1;
+
+  template <class Axis>
+  [[nodiscard]] static Share split(simd::F32 position) noexcept {
+    const simd::F32 index = detail::clamped_cell<Axis>(position) * simd::all(static_cast<float>(Axis::stride));
+    return {index, simd::all(0.0f), simd::all(1.0f), simd::all(1.0f) < simd::all(0.0f)};
+  }
+
+  template <int Axes>
+  [[nodiscard]] static Votes<1> combine(const Share (&shares)[Axes]) noexcept {
+    return {{detail::primary_index(shares)}, {simd::all(1.0f)}};
+  }
+};
+
+/// Multilinear interpolation: shares multiply, over all 2^N cells around the point. A partition of unity (every point
+/// counts exactly once in all: what has no partner stays in the cell) and continuous at every border between cells.
+struct MultilinearVoting {
+  template <int Axes>
+  static constexpr int votes = 1 << Axes;
+
+  template <class Axis>
+  [[nodiscard]] static Share split(simd::F32 position) noexcept {
+    const simd::F32 cell = detail::clamped_cell<Axis>(position);
+    Share share = detail::share<Axis>(cell, position - cell);
+    share.weight = select(share.has_partner, share.weight, simd::all(1.0f));
+    return share;
+  }
+
+  template <int Axes>
+  [[nodiscard]] static Votes<(1 << Axes)> combine(const Share (&shares)[Axes]) noexcept {
+    Votes<(1 << Axes)> votes;
+    votes.index[0] = detail::primary_index(shares);
+    votes.weight[0] = simd::all(1.0f);
+    for (int axis = 0; axis < Axes; ++axis) {
+      const int half = 1 << axis;
+      for (int i = 0; i < half; ++i) {
+        votes.index[half + i] = votes.index[i] + shares[axis].partner;
+        votes.weight[half + i] = votes.weight[i] * (simd::all(1.0f) - shares[axis].weight);
+        votes.weight[i] = votes.weight[i] * shares[axis].weight;
+      }
+    }
+    return votes;
+  }
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// Signal of SSH: none. Every point counts as one, a cell holds a plain sum.
+struct Occupancy {
+  static constexpr int bins = 1;
+  static constexpr bool needs_colors = false;
+};
+
+/// Signal of CSHOT and SCSH: the CIELAB distance between a point's colour and the key point's, over `Bins` bins of
+/// equal width. `LabRule` is the colour conversion (PublishedLab or PclLab).
+template <int Bins, class LabRule = PublishedLab>
+struct ColorDistance {
+  static_assert(Bins >= 1 && Bins <= 1024, "ColorDistance<Bins> supports 1 to 1024 histogram bins");
+  static constexpr int bins = Bins;
+  static constexpr bool needs_colors = true;
+  using Rule = LabRule;
+};
+
+/// A spherical grid with a histogram of one signal in every cell.
+/// Layout: histogram bin fastest, then radius, elevation, azimuth.
+template <class GridType, class SignalType, class RadiusScale = LinearRadius>
+struct Part {
+  using Grid = GridType;
+  using Signal = SignalType;
+  using Scale = RadiusScale;
+  static constexpr int size = Grid::cells * Signal::bins;
+  static constexpr bool has_histogram = Signal::bins > 1 || Signal::needs_colors;
+
+  /// Position of one value within the part.
+  [[nodiscard]] static constexpr int index(int r, int e, int a, int bin = 0) noexcept {
+    return bin + Signal::bins * Grid::index(r, e, a);
+  }
+
+  using RadialAxis = Axis<Grid::radial, Signal::bins, Beyond::nothing>;
+  using ElevationAxis = Axis<Grid::elevation, Signal::bins * Grid::radial, Beyond::nothing>;
+  using AzimuthAxis = Axis<Grid::azimuth, Signal::bins * Grid::radial * Grid::elevation, Beyond::first_cell>;
+  using SignalAxis = Axis<Signal::bins, 1, Beyond::nothing>;
+};
+
+/// A descriptor: its parts one after the other, filled by one voting rule and normalised together to L2 norm 1.
+template <class VotingRule, class... Parts>
+struct Descriptor {
+  using Voting = VotingRule;
+  static_assert(sizeof...(Parts) >= 1, "Descriptor<Voting, Parts...> supports one or more parts");
+
+  /// Number of floats, and of bytes when stored as floats.
+  static constexpr int size = (Parts::size + ...);
+  static constexpr std::size_t size_bytes = sizeof(float) * static_cast<std::size_t>(size);
+  static_assert(size <= 65536, "Descriptor supports up to 65536 values");
+
+  static constexpr bool needs_colors = (Parts::Signal::needs_colors || ...);
+
+  /// First value of part `i` (of `parts` ones), and the end of the last part.
+  static constexpr int parts = static_cast<int>(sizeof...(Parts));
+  [[nodiscard]] static constexpr int offset(int i) noexcept {
+    constexpr int sizes[] = {Parts::size...};
+    int sum = 0;
+    for (int k = 0; k < i; ++k) sum += sizes[k];
+    return sum;
+  }
+};
+
+/// SSH (equation 4): how many points lie in each cell. Needs points only.
+template <class Grid, class Voting = PublishedVoting, class RadiusScale = LinearRadius>
+using Ssh = Descriptor<Voting, Part<Grid, Occupancy, RadiusScale>>;
+
+/// SCSH (equations 6 and 7): SSH on one grid, histograms of colour distance on another. Needs points and colours.
+template <class ShapeGrid, class ColorGrid, int Bins, class Voting = PublishedVoting, class RadiusScale = LinearRadius,
+          class LabRule = PublishedLab>
+using Scsh = Descriptor<Voting, Part<ShapeGrid, Occupancy, RadiusScale>,
+                        Part<ColorGrid, ColorDistance<Bins, LabRule>, RadiusScale>>;
+
+using Ssh32 = Ssh<SphericalGrid<2, 2, 8>>;
+using Ssh96 = Ssh<SphericalGrid<3, 4, 8>>;
+using Scsh336 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;
+using Scsh696 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 6>, 25>;
+
+static_assert(Ssh32::size == 32 && Ssh96::size == 96 && Scsh336::size == 336 && Scsh696::size == 696,
+              "the published sizes");
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/fixed_point.hpp: sums that do not depend on their order.
+//
+// Float additions round, so a sum depends on the order of its terms: on the search that found the neighbours, on the
+// number of lanes, on the number of threads. Every sum over neighbours in this library adds numbers that were first
+// scaled by a power of two and rounded to integers: exact additions, the same bits whatever the order.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// The largest power of two by which `n` numbers of magnitude up to 2^bits can be scaled so that no partial sum leaves
+/// int32, and each number has at most 22 bits (what simd::round_to_int() can take).
+[[nodiscard]] inline float fixed_point_scale(std::uint32_t n, int bits) noexcept {
+  int exponent = 30;
+  for (std::uint32_t covered = 1; covered < n; covered *= 2) --exponent;
+  if (exponent > 22) exponent = 22;
+  exponent -= bits;
+  float scale = 1.0f;
+  for (; exponent > 0; --exponent) scale *= 2.0f;
+  return scale;
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/frame.hpp: the SHOT local reference frame of a gathered neighbourhood.
+
+// shortshot/neighborhood.hpp: the support radius, and the gathered neighbourhood in the caller's memory.
+
+namespace shortshot {
+
+/// Most neighbours of one key point: what the fixed-point sums over them can hold.
+inline constexpr std::uint32_t max_neighbors = 1u << 24;
+
+/// The neighbours of one key point: a structure of arrays in memory that somebody else owns. Trivial type.
+struct Neighborhood {
+  float* dx;  ///< neighbour - key point in metres; `capacity` elements, as in all arrays here
+  float* dy;
+  float* dz;
+  float* d2;             ///< squared distance, summed as (dx*dx + dy*dy) + dz*dz in float
+  std::uint32_t* index;  ///< the neighbour's index in the cloud
+  std::uint32_t capacity;
+  std::uint32_t size;   ///< neighbours stored, the key point itself and its copies included
+  std::uint32_t found;  ///< neighbours found; more than `capacity` if they did not fit
+};
+
+/// All the scratch memory a key point needs, sized at compile time and owned by the caller: a local, a static, a
+/// member. 20 bytes a neighbour. Trivial type; one thread at a time may use it.
+template <std::size_t MaxNeighbors>
+struct Workspace {
+  static_assert(MaxNeighbors >= 5 && MaxNeighbors <= max_neighbors,
+                "Workspace<MaxNeighbors> supports 5 (a local reference frame needs as many) to 2^24 neighbours");
+  float dx[MaxNeighbors];
+  float dy[MaxNeighbors];
+  float dz[MaxNeighbors];
+  float d2[MaxNeighbors];
+  std::uint32_t index[MaxNeighbors];
+};
+
+inline namespace SHORTSHOT_ISA {
+
+/// A support radius in metres and its square. Neighbours are points with float d2 < squared: strictly inside.
+/// Converts from float, squared in float. from_double() squares in double and rounds once, as PCL does: the same
+/// neighbours to the last point on the rim. (Meant for constants and hosts: no double is left in firmware code.)
+struct Radius {
+  float value;
+  float squared;
+
+  Radius() = default;
+  constexpr Radius(float radius) noexcept : value(radius), squared(radius * radius) {}  // NOLINT: 0.04f is a radius
+  [[nodiscard]] static constexpr Radius from_double(double radius) noexcept {
+    Radius r(static_cast<float>(radius));
+    r.squared = static_cast<float>(radius * radius);
+    return r;
+  }
+};
+
+[[nodiscard]] inline Status check(Radius radius) noexcept {
+  const bool usable = math::is_finite(radius.value) && math::is_finite(radius.squared) && radius.value > 0.0f &&
+                      radius.squared > 1.17549435e-38f;
+  return usable ? Status::ok : Status::bad_radius;
+}
+
+/// An empty neighbourhood in a workspace's memory.
+template <std::size_t MaxNeighbors>
+[[nodiscard]] inline Neighborhood neighborhood_in(Workspace<MaxNeighbors>& w) noexcept {
+  return {w.dx, w.dy, w.dz, w.d2, w.index, static_cast<std::uint32_t>(MaxNeighbors), 0, 0};
+}
+
+/// One register of neighbours, from `i` on. What is left over at the end comes with copies of the key point (all
+/// zeros), which no pass counts; nothing is read beyond the neighbourhood's size.
+struct Offsets {
+  simd::F32 dx, dy, dz, d2;
+};
+
+[[nodiscard]] inline Offsets load_offsets(const Neighborhood& n, std::uint32_t i) noexcept {
+  if (n.size - i >= simd::lanes) {
+    return {simd::load(n.dx + i), simd::load(n.dy + i), simd::load(n.dz + i), simd::load(n.d2 + i)};
+  }
+  float rest[4][simd::lanes] = {};
+  for (std::uint32_t k = 0; k < n.size - i; ++k) {
+    rest[0][k] = n.dx[i + k];
+    rest[1][k] = n.dy[i + k];
+    rest[2][k] = n.dz[i + k];
+    rest[3][k] = n.d2[i + k];
+  }
+  return {simd::load(rest[0]), simd::load(rest[1]), simd::load(rest[2]), simd::load(rest[3])};
+}
+
+/// Offer one point of the cloud to the neighbourhood: THE membership rule, for every search. A point is a neighbour if
+/// its float squared distance is strictly below `radius_squared`; written so that NaN is refused.
+inline void offer(Neighborhood& out, const Point& p, std::uint32_t index, const Point& center,
+                  float radius_squared) noexcept {
+  const float dx = p.x - center.x;
+  const float dy = p.y - center.y;
+  const float dz = p.z - center.z;
+  const float d2 = (dx * dx + dy * dy) + dz * dz;
+  if (!(d2 < radius_squared)) return;
+  if (out.size < out.capacity) {
+    out.dx[out.size] = dx;
+    out.dy[out.size] = dy;
+    out.dz[out.size] = dz;
+    out.d2[out.size] = d2;
+    out.index[out.size] = index;
+    ++out.size;
+  }
+  ++out.found;
+}
+
+/// To be called by a search before it offers the first point.
+inline void clear(Neighborhood& out) noexcept {
+  out.size = 0;
+  out.found = 0;
+}
+
+/// To be returned by a search after it has offered the last point.
+[[nodiscard]] inline Status outcome(const Neighborhood& out) noexcept {
+  return out.found > out.capacity ? Status::too_many_neighbors : Status::ok;
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/ranking.hpp: members of a neighbourhood by their rank in distance, without sorting it.
+//
+// PCL sorts every neighbourhood because a tied vote over an axis' sign looks at the five members in the middle. Ties
+// are rare (2 to 5 key points in a hundred), so the order is asked for only then, and found by bisection in place.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// A member makes a frame: it lies strictly inside the frame's radius and not at the key point itself.
+[[nodiscard]] inline bool is_member(const Neighborhood& n, std::uint32_t i, Radius radius) noexcept {
+  return n.d2[i] < radius.squared && (n.dx[i] != 0.0f || n.dy[i] != 0.0f || n.dz[i] != 0.0f);
+}
+
+/// A place in the order of members: by squared distance, then by index in the cloud (below all of them: -1).
+struct Place {
+  float d2;
+  std::int64_t index;
+};
+
+[[nodiscard]] inline bool before(Place a, Place b) noexcept {
+  return a.d2 < b.d2 || (a.d2 == b.d2 && a.index < b.index);
+}
+
+/// The first member behind a place; n.size if there is none.
+[[nodiscard]] inline std::uint32_t next_member(const Neighborhood& n, Radius radius, Place place) noexcept {
+  std::uint32_t best = n.size;
+  for (std::uint32_t i = 0; i < n.size; ++i) {
+    const Place candidate{n.d2[i], n.index[i]};
+    if (!before(place, candidate) || !is_member(n, i, radius)) continue;
+    if (best == n.size || before(candidate, {n.d2[best], n.index[best]})) best = i;
+  }
+  return best;
+}
+
+/// How many members have a squared distance of at most `limit`.
+[[nodiscard]] inline int members_within(const Neighborhood& n, Radius radius, float limit) noexcept {
+  int members = 0;
+  for (std::uint32_t i = 0; i < n.size; ++i) members += n.d2[i] <= limit && is_member(n, i, radius) ? 1 : 0;
+  return members;
+}
+
+/// The member of the given rank; rank 0 is the closest. The neighbourhood must have more members than that.
+[[nodiscard]] inline std::uint32_t member_of_rank(const Neighborhood& n, Radius radius, int rank) noexcept {
+  const auto as_float = [](std::uint32_t bits) {
+    float value = 0.0f;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+  };
+  // Bits of floats >= 0 order as the floats do: bisect for the smallest d2 with more than `rank` members within.
+  std::uint32_t low = 0;
+  std::uint32_t high = 0;
+  std::memcpy(&high, &radius.squared, sizeof high);
+  while (low < high) {
+    const std::uint32_t middle = low + (high - low) / 2;
+    if (members_within(n, radius, as_float(middle)) > rank) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  const float d2 = as_float(low);
+  const int closer = low == 0 ? 0 : members_within(n, radius, as_float(low - 1));
+  std::uint32_t member = next_member(n, radius, {d2, -1});
+  for (int k = closer; k < rank; ++k) member = next_member(n, radius, {d2, n.index[member]});
+  return member;
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/symmetric_eigen.hpp: eigenvectors of a symmetric 3x3 matrix, in float, with the same bits everywhere.
+//
+// Cyclic Jacobi rotations: accurate to a few float epsilons whatever the spacing of the eigenvalues, no libm call but
+// the exactly rounded square root, 192 bytes of stack on a Cortex-M7. Eigen's solvers are as good on a PC, but the
+// direct one calls atan2, cos and sin (other bits with every libm) and both cost more flash than the rest of the frame.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// Upper triangle of a symmetric matrix.
+struct Symmetric3 {
+  float xx, xy, xz, yy, yz, zz;
+};
+
+/// Eigenvalues in ascending order; vectors[i] belongs to values[i] and has unit length. Signs are the solver's.
+struct Eigen3 {
+  float values[3];
+  float vectors[3][3];
+};
+
+/// One Jacobi rotation in the plane (p, q) that makes a[p][q] zero; the columns of v collect the rotations.
+inline void rotate(float (&a)[3][3], float (&v)[3][3], int p, int q) noexcept {
+  if (a[p][q] == 0.0f) return;
+  const float theta = (a[q][q] - a[p][p]) / (2.0f * a[p][q]);
+  const float magnitude = theta < 0.0f ? -theta : theta;
+  // tan of the rotation angle; theta squared would overflow where the angle is below float resolution anyway.
+  const float tangent =
+      magnitude > 1e9f ? 0.5f / magnitude : 1.0f / (magnitude + simd::root(magnitude * magnitude + 1.0f));
+  const float t = theta < 0.0f ? -tangent : tangent;
+  const float c = 1.0f / simd::root(t * t + 1.0f);
+  const float s = t * c;
+  const int r = 3 - p - q;  // the row that is not rotated
+
+  a[p][p] = a[p][p] - t * a[p][q];
+  a[q][q] = a[q][q] + t * a[p][q];
+  a[p][q] = a[q][p] = 0.0f;
+  const float rp = a[r][p];
+  const float rq = a[r][q];
+  a[r][p] = a[p][r] = c * rp - s * rq;
+  a[r][q] = a[q][r] = s * rp + c * rq;
+  for (int k = 0; k < 3; ++k) {
+    const float vp = v[k][p];
+    const float vq = v[k][q];
+    v[k][p] = c * vp - s * vq;
+    v[k][q] = s * vp + c * vq;
+  }
+}
+
+/// Eigen-decomposition of m. Converges quadratically: six sweeps are twice what any float matrix was seen to need.
+[[nodiscard]] inline Eigen3 decompose(const Symmetric3& m) noexcept {
+  float a[3][3] = {{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}};
+  float v[3][3] = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+  for (int sweep = 0; sweep < 6; ++sweep) {
+    rotate(a, v, 0, 1);
+    rotate(a, v, 0, 2);
+    rotate(a, v, 1, 2);
+  }
+
+  int order[3] = {0, 1, 2};
+  const auto sort_pair = [&](int i, int j) {
+    if (a[order[j]][order[j]] >= a[order[i]][order[i]]) return;
+    const int swapped = order[i];
+    order[i] = order[j];
+    order[j] = swapped;
+  };
+  sort_pair(0, 1);
+  sort_pair(1, 2);
+  sort_pair(0, 1);
+
+  Eigen3 result;
+  for (int i = 0; i < 3; ++i) {
+    const int column = order[i];
+    const float length =
+        simd::root(v[0][column] * v[0][column] + v[1][column] * v[1][column] + v[2][column] * v[2][column]);
+    result.values[i] = a[column][column];
+    for (int k = 0; k < 3; ++k) result.vectors[i][k] = v[k][column] / length;
+  }
+  return result;
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+namespace shortshot {
+
+/// A local reference frame: three orthonormal axes in the cloud's coordinates, right-handed. Trivial type.
+struct Frame {
+  float x[3];
+  float y[3];
+  float z[3];
+};
+
+inline namespace SHORTSHOT_ISA {
+
+/// Fewest neighbours (other than the key point and its copies) for a frame, as in PCL.
+inline constexpr int min_frame_neighbors = 5;
+
+[[nodiscard]] inline float dot(const float (&a)[3], const float (&b)[3]) noexcept {
+  return (a[0] * b[0] + a[2] * b[2]) + a[1] * b[1];
+}
+
+/// Is this a frame one can describe in: finite, and orthonormal within 1e-3?
+[[nodiscard]] inline Status check(const Frame& frame) noexcept {
+  if (!math::is_finite(frame.x) || !math::is_finite(frame.y) || !math::is_finite(frame.z)) return Status::bad_frame;
+  const auto near = [](float value, float target) { return value > target - 1e-3f && value < target + 1e-3f; };
+  const bool orthonormal = near(dot(frame.x, frame.x), 1.0f) && near(dot(frame.y, frame.y), 1.0f) &&
+                           near(dot(frame.z, frame.z), 1.0f) && near(dot(frame.x, frame.y), 0.0f) &&
+                           near(dot(frame.x, frame.z), 0.0f) && near(dot(frame.y, frame.z), 0.0f);
+  return orthonormal ? Status::ok : Status::bad_frame;
+}
+
+namespace detail {
+
+/// The members of a neighbourhood make its frame: strictly inside the frame's radius and not at the key point.
+[[nodiscard]] inline simd::Mask are_members(const Offsets& v, Radius radius) noexcept {
+  const simd::F32 zero = simd::all(0.0f);
+  const simd::Mask apart = (simd::abs(v.dx) > zero) | (simd::abs(v.dy) > zero) | (simd::abs(v.dz) > zero);
+  return apart & (v.d2 < simd::all(radius.squared));
+}
+
+inline void negate(float (&axis)[3]) noexcept {
+  for (float& component : axis) component = 0.0f - component;
+}
+
+/// Pass 1: how far the members reach, as the squared distance of the farthest one.
+[[nodiscard]] inline float farthest_member_d2(const Neighborhood& n, Radius radius) noexcept {
+  simd::F32 farthest = simd::all(0.0f);
+  for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
+    const Offsets v = load_offsets(n, i);
+    farthest = simd::max(farthest, keep(are_members(v, radius), v.d2));
+  }
+  return simd::largest(farthest);
+}
+
+/// How members are brought to fixed point: coordinates times `unit`, a power of two (so that nothing is rounded) that
+/// makes the farthest one 1/2 to 1 long, and weights times `scale`.
+struct MemberScale {
+  float unit;
+  float scale;
+};
+
+[[nodiscard]] inline MemberScale member_scale(std::uint32_t n, float farthest_d2, Radius radius) noexcept {
+  // Below 1e-19 m squares are lost to underflow: such members count as if they were at the key point.
+  const float root = simd::root(farthest_d2);
+  const float farthest = root > 1e-19f ? root : 1e-19f;
+  const float unit = 0.5f / math::power_of_two_below(farthest);
+  // The largest w |v|^2 with w = 1 - |v| / R: at |v| = 2/3 R, or at the farthest member if that is closer.
+  const float place = 3.0f * farthest > 2.0f * radius.value ? radius.value * 0.6667f : farthest;
+  float bound = (1.0f - place / radius.value) * (place * unit) * (place * unit);
+  int bits = 0;
+  for (; bound < 0.49f && bits > -4; bound *= 2.0f) --bits;
+  return {unit, fixed_point_scale(n, bits)};
+}
+
+/// Pass 2: sum of w v v^T over the members (PCL's matrix but for its scale, which moves no eigenvector).
+struct WeightedScatter {
+  Symmetric3 matrix;
+  int members;
+};
+
+[[nodiscard]] inline WeightedScatter weighted_scatter(const Neighborhood& n, Radius radius) noexcept {
+  using simd::all;
+  const MemberScale to = member_scale(n.size, farthest_member_d2(n, radius), radius);
+  const simd::F32 unit = all(to.unit);
+  const simd::F32 inverse = all(1.0f / radius.value);
+  simd::I32 xx{}, xy{}, xz{}, yy{}, yz{}, zz{}, members{};
+  for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
+    const Offsets v = load_offsets(n, i);
+    const simd::Mask member = are_members(v, radius);
+    const simd::F32 x = keep(member, v.dx) * unit;
+    const simd::F32 y = keep(member, v.dy) * unit;
+    const simd::F32 z = keep(member, v.dz) * unit;
+    const simd::F32 w = (all(1.0f) - simd::sqrt(keep(member, v.d2)) * inverse) * all(to.scale);
+    const simd::F32 wx = w * x;
+    const simd::F32 wy = w * y;
+    xx = xx + round_to_int(wx * x);
+    xy = xy + round_to_int(wx * y);
+    xz = xz + round_to_int(wx * z);
+    yy = yy + round_to_int(wy * y);
+    yz = yz + round_to_int(wy * z);
+    zz = zz + round_to_int(w * z * z);
+    members = members + ones(member);
+  }
+  const auto total = [](simd::I32 lanes) { return static_cast<float>(sum(lanes)); };
+  return {{total(xx), total(xy), total(xz), total(yy), total(yz), total(zz)}, sum(members)};
+}
+
+/// Pass 3: how many members have v . axis >= 0.
+[[nodiscard]] inline int votes_for(const Neighborhood& n, Radius radius, const float (&axis)[3]) noexcept {
+  using simd::all;
+  simd::I32 votes{};
+  for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
+    const Offsets v = load_offsets(n, i);
+    const simd::F32 along = (v.dx * all(axis[0]) + v.dz * all(axis[2])) + v.dy * all(axis[1]);
+    votes = votes + ones((along >= all(0.0f)) & are_members(v, radius));
+  }
+  return sum(votes);
+}
+
+/// PCL's answer to a tied vote: of the five members in the middle of the order by distance, do at least three have
+/// v . axis > 0?
+[[nodiscard]] inline bool middle_votes_for(const Neighborhood& n, Radius radius, int members,
+                                           const float (&axis)[3]) noexcept {
+  int votes = 0;
+  std::uint32_t i = member_of_rank(n, radius, members / 2 - 2);
+  for (int k = 0; k < 5 && i < n.size; ++k) {
+    const float v[3] = {n.dx[i], n.dy[i], n.dz[i]};
+    votes += dot(v, axis) > 0.0f ? 1 : 0;
+    i = next_member(n, radius, {n.d2[i], n.index[i]});
+  }
+  return votes >= 3;
+}
+
+/// Turn an axis towards the majority of the members.
+inline void orient_by_vote(const Neighborhood& n, Radius radius, int members, float (&axis)[3]) noexcept {
+  const int votes = votes_for(n, radius, axis);
+  const bool keep = 2 * votes == members ? middle_votes_for(n, radius, members, axis) : 2 * votes > members;
+  if (!keep) negate(axis);
+}
+
+}  // namespace detail
+
+/// SHOT's local reference frame of a gathered neighbourhood: x along the largest and z along the smallest principal
+/// axis of the members, weighted by R - |v| and centred on the key point, each turned towards the majority of the
+/// members; y = z cross x. Source: PCL 1.13's SHOTLocalReferenceFrameEstimation, its rule for ties included.
+///
+/// `radius` is the frame's own; it may be smaller than the one the neighbourhood was gathered with.
+/// `towards_viewpoint`, if not null, is a vector (3 floats, any length) from the key point to the camera: z is turned
+/// to it and only x by vote. Every depth camera knows it, and it makes frames more repeatable; null is SHOT.
+///
+/// Statuses: bad_radius; too_many_neighbors (more than 2^24); too_few_neighbors (fewer than five members);
+/// ambiguous_frame (two principal axes equal within float resolution: collinear or symmetric neighbourhoods). `frame`
+/// is zeroed then. On an exactly planar neighbourhood all members lie at z = 0 and the sign of z is the solver's unless
+/// a viewpoint is given. No allocation, reentrant. The result does not depend on the order of the neighbours.
+[[nodiscard]] inline Status estimate_frame(const Neighborhood& n, Radius radius, Frame& frame,
+                                           const float* towards_viewpoint = nullptr) noexcept {
+  frame = Frame{};
+  const Status usable = check(radius);
+  if (usable != Status::ok) return usable;
+  if (n.size > max_neighbors) return Status::too_many_neighbors;
+  const detail::WeightedScatter scatter = detail::weighted_scatter(n, radius);
+  if (scatter.members < min_frame_neighbors) return Status::too_few_neighbors;
+
+  const detail::Eigen3 eigen = detail::decompose(scatter.matrix);
+  // What float can tell apart, and what the rounding of the members to integers may have moved.
+  const float resolution = 1e-6f * eigen.values[2] + simd::root(static_cast<float>(scatter.members));
+  if (!(eigen.values[2] - eigen.values[1] > resolution && eigen.values[1] - eigen.values[0] > resolution)) {
+    return Status::ambiguous_frame;
+  }
+
+  for (int k = 0; k < 3; ++k) {
+    frame.x[k] = eigen.vectors[2][k];
+    frame.z[k] = eigen.vectors[0][k];
+  }
+  detail::orient_by_vote(n, radius, scatter.members, frame.x);
+  if (towards_viewpoint == nullptr) {
+    detail::orient_by_vote(n, radius, scatter.members, frame.z);
+  } else {
+    const float view[3] = {towards_viewpoint[0], towards_viewpoint[1], towards_viewpoint[2]};
+    if (dot(view, frame.z) < 0.0f) detail::negate(frame.z);
+  }
+  frame.y[0] = frame.z[1] * frame.x[2] - frame.z[2] * frame.x[1];
+  frame.y[1] = frame.z[2] * frame.x[0] - frame.z[0] * frame.x[2];
+  frame.y[2] = frame.z[0] * frame.x[1] - frame.z[1] * frame.x[0];
+  return Status::ok;
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// Colours of a cloud's points by index, and the key point's own: what a ColorDistance compares. This source converts
+/// every neighbour's bytes when it is asked: no memory per point.
+template <class LabRule>
+struct RgbColors {
+  CloudView cloud;
+  Lab reference;
+  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return to_lab<LabRule>(color(cloud, index)); }
+};
+
+/// The same from an array that holds each point's Lab, converted once for the whole cloud by convert_colors().
+struct LabColors {
+  const Lab* lab;  ///< one per point of the cloud, borrowed
+  Lab reference;
+  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return lab[index]; }
+};
+
+/// For descriptors without colour.
+struct NoColors {};
+
+/// Convert all colours of a cloud into `lab` (cloud.size elements of the caller's). Statuses: empty_cloud,
+/// bad_view, missing_colors.
+template <class LabRule>
+[[nodiscard]] inline Status convert_colors(const CloudView& cloud, Lab* lab) noexcept {
+  const Status usable = check(cloud);
+  if (usable != Status::ok) return usable;
+  if (!has_colors(cloud)) return Status::missing_colors;
+  for (std::size_t i = 0; i < cloud.size; ++i) lab[i] = to_lab<LabRule>(color(cloud, i));
+  return Status::ok;
+}
+
+namespace detail {
+
+/// Neighbours per chunk. The arrays of a chunk are all the stack that the kernel uses beyond a few registers.
+inline constexpr std::uint32_t chunk_size = 64;
+
+/// A chunk of neighbours in the frame's spherical coordinates.
+struct Chunk {
+  std::uint32_t first;  ///< position in the neighbourhood
+  std::uint32_t size;
+  float distance[chunk_size];   ///< over the radius, 0..1
+  float elevation[chunk_size];  ///< angle from +z over pi, 0..1
+  float azimuth[chunk_size];    ///< angle from -x, counter-clockwise, in turns, 0..1
+  float scale[chunk_size];      ///< fixed-point scale of its votes; 0 for neighbours that are not described
+};
+
+/// Closest squared distance that is described: the published code skips the key point and its copies by this bound.
+inline constexpr float min_described_d2 = 1e-15f;
+
+/// Local coordinates, each rounded as the published code rounds them: dot products x + z first, then y.
+inline void locate(const Neighborhood& n, const Frame& frame, Radius radius, Chunk& chunk) noexcept {
+  using simd::all;
+  using simd::F32;
+  const F32 inverse = all(1.0f / radius.value);
+  const float splitter = math::length_splitter(radius.value);
+  const F32 vote_scale = all(fixed_point_scale(n.size, 2));
+  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
+    const std::uint32_t k = chunk.first + i;
+    const Offsets v = load_offsets(n, k);
+    const auto along = [&](const float(&axis)[3]) {
+      return (v.dx * all(axis[0]) + v.dz * all(axis[2])) + v.dy * all(axis[1]);
+    };
+    const F32 x = along(frame.x);
+    const F32 y = along(frame.y);
+    const F32 z = along(frame.z);
+    const F32 rho2 = x * x + y * y;
+    // Neighbours beyond the radius (of a wider frame) have no vote, but must not leave the range of int either.
+    simd::store(chunk.distance + i, simd::min(math::length(x, y, z, splitter) * inverse, all(2.0f)));
+    simd::store(chunk.elevation + i, math::elevation(simd::sqrt(rho2), z));
+    simd::store(chunk.azimuth + i, math::azimuth(x, y));
+    simd::store(chunk.scale + i, keep((v.d2 > all(min_described_d2)) & (v.d2 < all(radius.squared)), vote_scale));
+  }
+}
+
+/// Colour distances of a chunk's neighbours to the key point.
+template <class Colors>
+inline void measure_colors(const Neighborhood& n, const Colors& colors, const Chunk& chunk,
+                           float (&signal)[chunk_size]) noexcept {
+  std::uint32_t i = 0;
+  for (; i < chunk.size; ++i) signal[i] = color_distance(colors(n.index[chunk.first + i]), colors.reference);
+  for (; i % simd::lanes != 0; ++i) signal[i] = 0.0f;  // the last register
+}
+
+/// The votes of a chunk, lane-wise: `Count` arrays of positions in the part and fixed-point weights.
+template <int Count>
+struct ChunkVotes {
+  std::int32_t index[Count][chunk_size];
+  std::int32_t weight[Count][chunk_size];
+};
+
+/// Axes of a part: three of its grid, and the histogram's where it has one.
+template <class Part>
+inline constexpr int axes_of = Part::has_histogram ? 4 : 3;
+
+template <class Voting, class Part>
+inline void vote(const Chunk& chunk, const float (&signal)[chunk_size],
+                 ChunkVotes<Voting::template votes<axes_of<Part>>>& out) noexcept {
+  using simd::all;
+  using Grid = typename Part::Grid;
+  constexpr int axes = axes_of<Part>;
+  constexpr int count = Voting::template votes<axes>;
+  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
+    Share shares[axes];
+    shares[0] = Voting::template split<typename Part::RadialAxis>(
+        Part::Scale::template position<Grid::radial>(simd::load(chunk.distance + i)));
+    shares[1] = Voting::template split<typename Part::ElevationAxis>(simd::load(chunk.elevation + i) *
+                                                                     all(static_cast<float>(Grid::elevation)));
+    shares[2] = Voting::template split<typename Part::AzimuthAxis>(simd::load(chunk.azimuth + i) *
+                                                                   all(static_cast<float>(Grid::azimuth)));
+    if constexpr (Part::has_histogram) {
+      shares[3] = Voting::template split<typename Part::SignalAxis>(simd::load(signal + i) *
+                                                                    all(static_cast<float>(Part::Signal::bins)));
+    }
+    const Votes<count> votes = Voting::combine(shares);
+    const simd::F32 scale = simd::load(chunk.scale + i);
+    for (int k = 0; k < count; ++k) {
+      simd::store(out.index[k] + i, truncate_to_int(votes.index[k]));
+      simd::store(out.weight[k] + i, round_to_int(votes.weight[k] * scale));
+    }
+  }
+}
+
+/// The integers that votes are added to live in the caller's output array, bit for bit, until they are normalised: no
+/// second array is needed. memcpy is how C++ says that; compilers make one add of it.
+inline void add_bits(float* value, std::int32_t weight) noexcept {
+  std::int32_t sum = 0;
+  std::memcpy(&sum, value, sizeof sum);
+  sum += weight;
+  std::memcpy(value, &sum, sizeof sum);
+}
+
+template <int Count>
+inline void scatter(const ChunkVotes<Count>& votes, std::uint32_t size, float* part) noexcept {
+  for (std::uint32_t i = 0; i < size; ++i) {
+    for (int k = 0; k < Count; ++k) add_bits(part + votes.index[k][i], votes.weight[k][i]);
+  }
+}
+
+/// One chunk into one part.
+template <class Voting, class Part, class Colors>
+inline void accumulate(const Neighborhood& n, const Colors& colors, const Chunk& chunk, float* part) noexcept {
+  ChunkVotes<Voting::template votes<axes_of<Part>>> votes;
+  float signal[chunk_size];
+  if constexpr (Part::Signal::needs_colors) measure_colors(n, colors, chunk, signal);
+  vote<Voting, Part>(chunk, signal, votes);
+  scatter(votes, chunk.size, part);
+}
+
+template <class Voting, class... Parts, class Colors>
+inline void accumulate_all(Descriptor<Voting, Parts...>, const Neighborhood& n, const Colors& colors,
+                           const Chunk& chunk, float* out) noexcept {
+  using D = Descriptor<Voting, Parts...>;
+  int part = 0;
+  (accumulate<Voting, Parts>(n, colors, chunk, out + D::offset(part++)), ...);
+}
+
+/// Integers to floats of L2 norm 1. Eight partial sums of squares, so that any number of lanes adds in the same order.
+[[nodiscard]] inline Status normalize(float* values, int size) noexcept {
+  float partial[8] = {};
+  for (int i = 0; i < size; ++i) {
+    std::int32_t bits = 0;
+    std::memcpy(&bits, values + i, sizeof bits);
+    values[i] = static_cast<float>(bits);
+    partial[i % 8] += values[i] * values[i];
+  }
+  const float squared_norm =
+      ((partial[0] + partial[1]) + (partial[2] + partial[3])) + ((partial[4] + partial[5]) + (partial[6] + partial[7]));
+  if (!(squared_norm > 0.0f)) return Status::too_few_neighbors;
+  const float inverse = 1.0f / simd::root(squared_norm);
+  for (int i = 0; i < size; ++i) values[i] *= inverse;
+  return Status::ok;
+}
+
+}  // namespace detail
+
+/// Describe a gathered neighbourhood in a frame: the kernel of every descriptor.
+///
+/// `n`       neighbours of one key point, gathered with at least `radius` (farther ones are left out)
+/// `colors`  a source of Lab by index (RgbColors, LabColors, your own), or NoColors if D needs none
+/// `frame`   an orthonormal frame: estimate_frame(), or one you know
+/// `out`     D::size floats: the parts of D in order, L2 norm 1
+///
+/// Source: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code (voting.hpp).
+/// There is no minimum of neighbours but one. Statuses: bad_radius, bad_frame, too_many_neighbors (over 2^24),
+/// too_few_neighbors (none but the key point and its copies); `out` is all zeros then, and never NaN. No allocation;
+/// reentrant; 3 to 10 KB of stack. The result does not depend on the order of the neighbours.
+template <class D, class Colors>
+[[nodiscard]] inline Status describe(const Neighborhood& n, const Colors& colors, const Frame& frame, Radius radius,
+                                     float* out) noexcept {
+  std::memset(out, 0, D::size_bytes);
+  static_assert(!D::needs_colors || !std::is_same<Colors, NoColors>::value,
+                "D has a colour part: describe() supports RgbColors, LabColors or another source of Lab by index");
+  Status status = check(radius);
+  if (status == Status::ok) status = check(frame);
+  if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
+  if (status != Status::ok) return status;
+
+  detail::Chunk chunk;
+  for (chunk.first = 0; chunk.first < n.size; chunk.first += detail::chunk_size) {
+    const std::uint32_t rest = n.size - chunk.first;
+    chunk.size = rest < detail::chunk_size ? rest : detail::chunk_size;
+    detail::locate(n, frame, radius, chunk);
+    detail::accumulate_all(D{}, n, colors, chunk, out);
+  }
+  return detail::normalize(out, D::size);
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+namespace shortshot {
+/// A place to describe: a point of the cloud, or any other position (a voxel's centroid) with its colour. The colour is
+/// what colour distances refer to; descriptors without colour ignore it. Trivial type.
+struct KeyPoint {
+  Point position;
+  Rgb color;
+};
+
+inline namespace SHORTSHOT_ISA {
+
+/// The key point at point `index` of a cloud, which must be below cloud.size.
+[[nodiscard]] inline KeyPoint keypoint(const CloudView& cloud, std::size_t index) noexcept {
+  return {point(cloud, index), has_colors(cloud) ? color(cloud, index) : Rgb{}};
+}
+
+/// What is described around a key point. Converts from a radius: `0.04f` is a support of 4 cm in SHOT's own frame.
+struct Support {
+  Radius radius;           ///< of the descriptor
+  Radius frame_radius;     ///< of the local reference frame; may be smaller or larger
+  const Point* viewpoint;  ///< where the camera is, in the cloud's coordinates: turns the frames' z; null: by vote
+
+  Support() = default;
+  constexpr Support(Radius r) noexcept : radius(r), frame_radius(r), viewpoint(nullptr) {}  // NOLINT: see above
+  constexpr Support(float r) noexcept : Support(Radius(r)) {}                               // NOLINT: see above
+};
+
+/// Can this cloud be described by D with this search and support? All that can be said before the first key point.
+template <class D, class Search>
+[[nodiscard]] inline Status check(const CloudView& cloud, const Search& search, const Support& support) noexcept {
+  Status status = check(cloud);
+  if (status == Status::ok) status = search.status();
+  if (status == Status::ok) status = check(support.radius);
+  if (status == Status::ok) status = check(support.frame_radius);
+  if (status == Status::ok && D::needs_colors && !has_colors(cloud)) status = Status::missing_colors;
+  return status;
+}
+
+namespace detail {
+
+/// Search, with the larger of the two radii.
+template <class Search>
+[[nodiscard]] inline Status gather(const Search& search, const Point& center, const Support& support,
+                                   Neighborhood& n) noexcept {
+  const bool wide_frame = support.frame_radius.squared > support.radius.squared;
+  return search.gather(center, wide_frame ? support.frame_radius : support.radius, n);
+}
+
+/// Frame and kernel; for `colors` see describe().
+template <class D, class Colors>
+[[nodiscard]] inline Status describe_gathered(const Neighborhood& n, const Colors& colors, const Point& center,
+                                              const Support& support, float* out) noexcept {
+  const Point* eye = support.viewpoint;
+  const float towards[3] = {eye ? eye->x - center.x : 0.0f, eye ? eye->y - center.y : 0.0f,
+                            eye ? eye->z - center.z : 0.0f};
+  Frame frame;
+  const Status status = estimate_frame(n, support.frame_radius, frame, eye ? towards : nullptr);
+  return status == Status::ok ? describe<D>(n, colors, frame, support.radius, out) : status;
+}
+
+/// The rule by which a descriptor's colour part converts colours.
+template <class D>
+struct LabRuleOf;
+template <class Voting, class... Parts>
+struct LabRuleOf<Descriptor<Voting, Parts...>> {
+  template <class Signal, class... Others>
+  static auto find(Signal, Others...) noexcept {
+    if constexpr (Signal::needs_colors) {
+      return typename Signal::Rule{};
+    } else if constexpr (sizeof...(Others) > 0) {
+      return find(Others{}...);
+    }
+  }
+  using type = decltype(find(typename Parts::Signal{}...));
+};
+
+/// The colour source that reads a cloud's own bytes.
+template <class D>
+[[nodiscard]] inline auto rgb_colors(const CloudView& cloud, const Rgb& reference) noexcept {
+  if constexpr (D::needs_colors) {
+    using Rule = typename LabRuleOf<D>::type;
+    return RgbColors<Rule>{cloud, to_lab<Rule>(reference)};
+  } else {
+    return NoColors{};
+  }
+}
+
+}  // namespace detail
+
+/// Describe one key point of a cloud.
+///
+/// `search`     any search over this cloud
+/// `support`    radii and, if known, the camera's position; a plain float is the radius in metres
+/// `workspace`  a Workspace<MaxNeighbors>; all the memory there is
+/// `out`        D::size floats: the descriptor, L2 norm 1, or all zeros if the status is not ok
+///
+/// Statuses: empty_cloud, bad_view, bad_radius, missing_colors, invalid_keypoint, too_many_neighbors (the workspace is
+/// too small: Neighborhood::found of a gather() says what it takes), too_few_neighbors, ambiguous_frame.
+/// No allocation; reentrant, one workspace per thread.
+template <class D, class Search, std::size_t MaxNeighbors>
+[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
+                                        const Support& support, Workspace<MaxNeighbors>& workspace,
+                                        float* out) noexcept {
+  std::memset(out, 0, D::size_bytes);
+  Status status = check<D>(cloud, search, support);
+  if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
+  if (status != Status::ok) return status;
+  Neighborhood n = neighborhood_in(workspace);
+  status = detail::gather(search, key.position, support, n);
+  if (status != Status::ok) return status;
+  return detail::describe_gathered<D>(n, detail::rgb_colors<D>(cloud, key.color), key.position, support, out);
+}
+
+/// The same for the point with an index; bad_keypoint if there is none.
+template <class D, class Search, std::size_t MaxNeighbors>
+[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, std::size_t index,
+                                        const Support& support, Workspace<MaxNeighbors>& workspace,
+                                        float* out) noexcept {
+  std::memset(out, 0, D::size_bytes);
+  const Status status = check<D>(cloud, search, support);
+  if (status != Status::ok) return status;
+  if (index >= cloud.size) return Status::bad_keypoint;
+  return describe_at<D>(cloud, search, keypoint(cloud, index), support, workspace, out);
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/search/brute.hpp: neighbours by looking at every point. No index, no memory: the reference, and the choice
+// for a handful of key points in a small cloud.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// A search is anything with two functions:
+/// * `Status gather(Point center, Radius radius, Neighborhood& out) const noexcept` offers each valid point within the
+///   radius to `out` exactly once, in any order, by the index it has in the cloud. It returns status() if that is
+///   not ok, and too_many_neighbors if `out` is too small, with the number in `out.found`. It allocates nothing, and
+///   several threads may call it at once;
+/// * `Status status() const noexcept` says why it cannot be asked, if so: what its build() returned.
+struct BruteSearch {
+  CloudView cloud;
+
+  [[nodiscard]] Status status() const noexcept { return check(cloud); }
+
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+    clear(out);
+    if (status() != Status::ok) return status();
+    for (std::size_t i = 0; i < cloud.size; ++i) {
+      offer(out, point(cloud, i), static_cast<std::uint32_t>(i), center, radius.squared);
+    }
+    return outcome(out);
+  }
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/search/grid.hpp: the fixed-radius grid. Points are counting-sorted into cubic cells once per cloud; a query
+// looks at runs of neighbouring cells. Ten times faster to build than a tree, faster to search, and of bounded memory.
+
+// shortshot/search/grid_box.hpp: the box of cells under a grid search, of bounded size whatever the cloud.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// Smallest and largest coordinate along each axis.
+struct Extent {
+  float low[3];
+  float high[3];
+};
+
+[[nodiscard]] inline float coordinate(const Point& p, int axis) noexcept {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+/// Extent of the valid points; returns how many there are.
+[[nodiscard]] inline std::size_t measure(const CloudView& cloud, Extent& extent) noexcept {
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < cloud.size; ++i) {
+    const Point p = point(cloud, i);
+    if (!is_finite(p)) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float v = coordinate(p, axis);
+      if (valid == 0 || v < extent.low[axis]) extent.low[axis] = v;
+      if (valid == 0 || v > extent.high[axis]) extent.high[axis] = v;
+    }
+    ++valid;
+  }
+  return valid;
+}
+
+/// First and last cell of a range, both inside the box.
+struct CellRange {
+  std::uint32_t first;
+  std::uint32_t last;
+};
+
+/// Cubic cells, x fastest. Coordinates outside the box belong to its outermost cells: since that map never decreases,
+/// a range of coordinates always maps to a range of cells, and no box is too small to be right.
+struct GridBox {
+  float low[3];
+  float cells_per_metre;
+  std::uint32_t dims[3];
+
+  [[nodiscard]] std::uint32_t cell(int axis, float v) const noexcept {
+    const float position = (v - low[axis]) * cells_per_metre;
+    if (!(position > 0.0f)) return 0;
+    const std::uint32_t last = dims[axis] - 1;
+    return position < static_cast<float>(last) ? static_cast<std::uint32_t>(position) : last;
+  }
+
+  [[nodiscard]] CellRange range(int axis, float center, float reach) const noexcept {
+    return {cell(axis, center - reach), cell(axis, center + reach)};
+  }
+
+  [[nodiscard]] std::size_t row(std::uint32_t y, std::uint32_t z) const noexcept {
+    return (static_cast<std::size_t>(z) * dims[1] + y) * dims[0];
+  }
+
+  [[nodiscard]] std::size_t cell_of(const Point& p) const noexcept {
+    return row(cell(1, p.y), cell(2, p.z)) + cell(0, p.x);
+  }
+
+  [[nodiscard]] std::size_t cells() const noexcept { return static_cast<std::size_t>(dims[0]) * dims[1] * dims[2]; }
+};
+
+/// Cells along each axis for an extent of any size; false if together they would be more than `capacity`.
+[[nodiscard]] inline bool count_cells(const Extent& extent, float cell_size, std::size_t capacity,
+                                      std::uint32_t (&dims)[3]) noexcept {
+  std::size_t room = capacity < 0x7FFFFFFFu ? capacity : 0x7FFFFFFFu;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float cells = (extent.high[axis] - extent.low[axis]) / cell_size + 1.0f;
+    if (!(cells < 2147483648.0f)) return false;
+    dims[axis] = static_cast<std::uint32_t>(cells);
+    room /= dims[axis];
+    if (room == 0) return false;
+  }
+  return true;
+}
+
+/// Cut the thinly populated ends off one axis: of 64 slices, those at either end that together hold at most 1 point in
+/// 128. Returns whether that at least halved the extent, which is when another round is worth while.
+template <class Index>
+[[nodiscard]] inline bool trim(const CloudView& cloud, std::size_t valid, int axis, Index* slices,
+                               Extent& extent) noexcept {
+  constexpr int count = 64;
+  const float low = extent.low[axis];
+  const float width = (extent.high[axis] - low) / count;
+  if (!(width > 0.0f)) return false;
+  for (int s = 0; s < count; ++s) slices[s] = 0;
+  const auto slice_of = [&](float v) {
+    const float s = (v - low) / width;
+    return !(s > 0.0f) ? 0 : s < count - 1.0f ? static_cast<int>(s) : count - 1;
+  };
+  for (std::size_t i = 0; i < cloud.size; ++i) {
+    const Point p = point(cloud, i);
+    if (is_finite(p)) ++slices[slice_of(coordinate(p, axis))];
+  }
+
+  int first = 0;
+  int last = count - 1;
+  std::size_t below = slices[first];
+  std::size_t above = slices[last];
+  for (; below <= valid / 128 && first < last; below += slices[first]) ++first;
+  for (; above <= valid / 128 && first < last; above += slices[last]) --last;
+  extent.low[axis] = low + static_cast<float>(first) * width;
+  extent.high[axis] = low + static_cast<float>(last + 1) * width;
+  return 2 * (last + 1 - first) <= count;
+}
+
+/// A box of at most `capacity` cells; `scratch` has as many elements and is free to be written.
+template <class Index>
+[[nodiscard]] inline GridBox fit_box(const CloudView& cloud, Extent extent, std::size_t valid, float cell_size,
+                                     Index* scratch, std::size_t capacity) noexcept {
+  GridBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    // A round divides the extent by up to 64: two dozen span all of float's range.
+    for (int round = 0; round < 24 && capacity >= 64; ++round) {
+      if (count_cells(extent, cell_size, capacity, box.dims)) break;
+      if (!trim(cloud, valid, axis, scratch, extent)) break;
+    }
+  }
+  while (!count_cells(extent, cell_size, capacity, box.dims) && cell_size < 1e37f) cell_size *= 1.25f;
+
+  box.cells_per_metre = 1.0f / cell_size;
+  const bool fits = count_cells(extent, cell_size, capacity, box.dims);
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = extent.low[axis];
+    if (!fits) box.dims[axis] = 1;  // an extent of all of float's range
+  }
+  return box;
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+namespace shortshot {
+
+/// Memory of a GridIndex, borrowed from the caller: `point_capacity` elements of `order`, `cell_capacity` of
+/// `cell_end`. `xyz`, if not null, has 3 * point_capacity floats and receives a sorted copy of the points: runs of
+/// neighbours then lie side by side in memory. Without it every point is read through the view.
+template <class Index>
+struct GridMemory {
+  Index* order;
+  Index* cell_end;
+  float* xyz;
+  std::size_t point_capacity;
+  std::size_t cell_capacity;
+};
+
+inline namespace SHORTSHOT_ISA {
+
+/// The index itself, in memory that somebody else owns; a search (see brute.hpp for the concept). Trivial type: build()
+/// before the first gather(). The cloud and the memory must outlive it. `Index` may be uint16_t for clouds of up to
+/// 65,536 points, invalid ones included.
+template <class Index = std::uint32_t>
+class GridIndex {
+  static_assert(std::is_same<Index, std::uint16_t>::value || std::is_same<Index, std::uint32_t>::value,
+                "GridIndex<Index> supports uint16_t and uint32_t");
+
+ public:
+  /// Sort the cloud's valid points into cells of `cell_size` metres; best close to the search radius, or half of it for
+  /// a thousand neighbours and more. Where the cells would not fit the memory (clouds of huge extent, far outliers) the
+  /// outliers are put into the outermost cells and, if that is not enough, cells become larger: any cell size gives
+  /// the same neighbours, only slower.
+  ///
+  /// Statuses: empty_cloud, bad_view, bad_radius (the cell size), out_of_memory (more valid points than
+  /// point_capacity, points with indices beyond Index, or no cell). O(points + cells); allocates nothing.
+  [[nodiscard]] Status build(const CloudView& cloud, float cell_size, const GridMemory<Index>& memory) noexcept {
+    *this = GridIndex{};
+    cloud_ = cloud;
+    memory_ = memory;
+    status_ = index_points(cell_size);
+    return status_;
+  }
+
+  /// What the last build() returned; empty_cloud before the first one (in memory that started as zeros).
+  [[nodiscard]] Status status() const noexcept {
+    return points_ == 0 && status_ == Status::ok ? Status::empty_cloud : status_;
+  }
+
+  /// Number of points in the index: the cloud's valid ones.
+  [[nodiscard]] std::size_t size() const noexcept { return points_; }
+
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+    clear(out);
+    if (status() != Status::ok) return status();
+    // The margin covers the rounding of d2: a point inside by d2 is never outside by one coordinate.
+    const float reach = radius.value * 1.000001f;
+    const detail::CellRange x = box_.range(0, center.x, reach);
+    const detail::CellRange y = box_.range(1, center.y, reach);
+    const detail::CellRange z = box_.range(2, center.z, reach);
+    for (std::uint32_t cz = z.first; cz <= z.last; ++cz) {
+      for (std::uint32_t cy = y.first; cy <= y.last; ++cy) {
+        const std::size_t row = box_.row(cy, cz);
+        offer_run(begin_of(row + x.first), memory_.cell_end[row + x.last], center, radius, out);
+      }
+    }
+    return outcome(out);
+  }
+
+ private:
+  [[nodiscard]] Status index_points(float cell_size) noexcept {
+    const Status usable = check(cloud_);
+    if (usable != Status::ok) return usable;
+    if (check(Radius(cell_size)) != Status::ok) return Status::bad_radius;
+    if (memory_.cell_capacity == 0) return Status::out_of_memory;
+
+    detail::Extent extent;
+    const std::size_t valid = detail::measure(cloud_, extent);
+    if (valid == 0) return Status::empty_cloud;
+    constexpr std::size_t most = static_cast<Index>(~Index{0});
+    if (valid > memory_.point_capacity || valid > most || cloud_.size - 1 > most) return Status::out_of_memory;
+
+    box_ = detail::fit_box(cloud_, extent, valid, cell_size, memory_.cell_end, memory_.cell_capacity);
+    points_ = valid;
+    sort();
+    return Status::ok;
+  }
+
+  /// cell_end[c] is where cell c ends in `order`; it begins where the cell before it ends.
+  [[nodiscard]] std::size_t begin_of(std::size_t cell) const noexcept {
+    return cell == 0 ? 0 : memory_.cell_end[cell - 1];
+  }
+
+  void offer_run(std::size_t begin, std::size_t end, const Point& center, Radius radius,
+                 Neighborhood& out) const noexcept {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t index = memory_.order[i];
+      const Point p = memory_.xyz == nullptr
+                          ? point(cloud_, index)
+                          : Point{memory_.xyz[3 * i], memory_.xyz[3 * i + 1], memory_.xyz[3 * i + 2]};
+      offer(out, p, index, center, radius.squared);
+    }
+  }
+
+  /// Counting sort: count per cell, turn counts into ends of the cells before, and let each placed point move its
+  /// cell's end forward to where it belongs.
+  void sort() noexcept {
+    const std::size_t cells = box_.cells();
+    for (std::size_t c = 0; c < cells; ++c) memory_.cell_end[c] = 0;
+    for_each_valid([this](std::size_t, std::size_t cell, const Point&) { ++memory_.cell_end[cell]; });
+    Index begin = 0;
+    for (std::size_t c = 0; c < cells; ++c) {
+      const Index count = memory_.cell_end[c];
+      memory_.cell_end[c] = begin;
+      begin = static_cast<Index>(begin + count);
+    }
+    for_each_valid([this](std::size_t index, std::size_t cell, const Point& p) {
+      const std::size_t place = memory_.cell_end[cell]++;
+      memory_.order[place] = static_cast<Index>(index);
+      if (memory_.xyz == nullptr) return;
+      memory_.xyz[3 * place] = p.x;
+      memory_.xyz[3 * place + 1] = p.y;
+      memory_.xyz[3 * place + 2] = p.z;
+    });
+  }
+
+  template <class Function>
+  void for_each_valid(Function f) const noexcept {
+    for (std::size_t i = 0; i < cloud_.size; ++i) {
+      const Point p = point(cloud_, i);
+      if (is_finite(p)) f(i, box_.cell_of(p), p);
+    }
+  }
+
+  CloudView cloud_;
+  GridMemory<Index> memory_;
+  detail::GridBox box_;
+  std::size_t points_;
+  Status status_;
+};
+
+/// A GridIndex with its memory inside, for clouds of up to `MaxPoints` valid points: a static or a member, no heap.
+/// 2 bytes a point and 2 a cell up to 65,535 points, else 4 (the cloud's indices must fit those bytes, too). Trivial
+/// type: build() before the first gather().
+template <std::size_t MaxPoints, std::size_t MaxCells>
+class StaticGrid {
+  static_assert(MaxPoints >= 1 && MaxCells >= 1, "StaticGrid<MaxPoints, MaxCells> supports one or more of both");
+
+ public:
+  using Index = std::conditional_t<(MaxPoints <= 65535), std::uint16_t, std::uint32_t>;
+
+  /// See GridIndex::build().
+  [[nodiscard]] Status build(const CloudView& cloud, float cell_size) noexcept {
+    return index_.build(cloud, cell_size, {order_, cell_end_, nullptr, MaxPoints, MaxCells});
+  }
+
+  [[nodiscard]] Status status() const noexcept { return index_.status(); }
+
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+    return index_.gather(center, radius, out);
+  }
+
+ private:
+  GridIndex<Index> index_;
+  Index order_[MaxPoints];
+  Index cell_end_[MaxCells];
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/search/organized.hpp: neighbours in a window of the depth image. No index at all: for organised clouds on
+// targets that cannot spare one.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// pixel = focal * (x / z) + center, for one direction of the image; no valid point is farther than `error` from it.
+struct Projection {
+  float focal;
+  float center;
+  float error;
+};
+
+/// First and last pixel of a window.
+struct PixelRange {
+  std::size_t first;
+  std::size_t last;
+};
+
+}  // namespace detail
+
+/// Search of an organised cloud by projecting the support sphere into the image; a search (see brute.hpp). The camera
+/// need not be known: build() fits a pinhole to the cloud and keeps the largest deviation as the window's margin, so
+/// that the neighbours are exactly those of every other search. Trivial type; the cloud must outlive it.
+class OrganizedSearch {
+ public:
+  /// Statuses: empty_cloud, bad_view, not_organized (height 1, width * height != size, points in front of and behind
+  /// the camera, or points that deviate from every pinhole by more than a quarter of the image, as after moving the
+  /// cloud into another coordinate system). O(points); allocates nothing.
+  [[nodiscard]] Status build(const CloudView& cloud) noexcept {
+    *this = OrganizedSearch{};
+    cloud_ = cloud;
+    status_ = fit();
+    return status_;
+  }
+
+  /// What the last build() returned; empty_cloud before the first one (in memory that started as zeros).
+  [[nodiscard]] Status status() const noexcept { return cloud_.size == 0 ? Status::empty_cloud : status_; }
+
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+    clear(out);
+    if (status() != Status::ok) return status();
+    const float reach = radius.value * 1.000001f;  // covers the rounding of d2
+    const detail::PixelRange columns = window(columns_, center.x, center.z, reach, cloud_.width);
+    const detail::PixelRange rows = window(rows_, center.y, center.z, reach, cloud_.height);
+    for (std::size_t v = rows.first; v < rows.last; ++v) {
+      for (std::size_t u = columns.first; u < columns.last; ++u) {
+        const std::size_t i = v * cloud_.width + u;
+        offer(out, point(cloud_, i), static_cast<std::uint32_t>(i), center, radius.squared);
+      }
+    }
+    return outcome(out);
+  }
+
+ private:
+  /// Pixels (first, one past last) that the cube around the sphere projects to; all of them if it reaches the camera.
+  [[nodiscard]] static detail::PixelRange window(const detail::Projection& p, float center, float z, float reach,
+                                                 std::size_t pixels) noexcept {
+    const float near = z - reach;
+    const float far = z + reach;
+    if (!(near * far > 0.0f)) return {0, pixels};
+    const float corners[4] = {(center - reach) / near, (center - reach) / far, (center + reach) / near,
+                              (center + reach) / far};
+    float low = p.focal * corners[0] + p.center;
+    float high = low;
+    for (const float corner : corners) {
+      const float pixel = p.focal * corner + p.center;
+      low = pixel < low ? pixel : low;
+      high = pixel > high ? pixel : high;
+    }
+    const auto clamped = [pixels](float pixel) -> std::size_t {
+      if (!(pixel > 0.0f)) return 0;
+      return pixel < static_cast<float>(pixels) ? static_cast<std::size_t>(pixel) : pixels;
+    };
+    return {clamped(low - p.error - 1.0f), clamped(high + p.error + 2.0f)};
+  }
+
+  /// Calls f(column, row, x / z, y / z) for each valid point.
+  template <class Function>
+  void for_each_valid(Function f) const noexcept {
+    for (std::size_t i = 0; i < cloud_.size; ++i) {
+      const Point p = point(cloud_, i);
+      if (!is_finite(p)) continue;
+      const std::size_t row = i / cloud_.width;
+      const std::size_t column = i % cloud_.width;
+      f(static_cast<float>(column), static_cast<float>(row), p.x / p.z, p.y / p.z);
+    }
+  }
+
+  [[nodiscard]] Status fit() noexcept {
+    const Status usable = check(cloud_);
+    if (usable != Status::ok) return usable;
+    if (cloud_.height < 2 || cloud_.width < 2 || cloud_.size / cloud_.width != cloud_.height ||
+        cloud_.size % cloud_.width != 0) {
+      return Status::not_organized;
+    }
+    bool front = false;
+    bool behind = false;
+    for (std::size_t i = 0; i < cloud_.size; ++i) {
+      const Point p = point(cloud_, i);
+      if (!is_finite(p)) continue;
+      front = front || p.z > 0.0f;
+      behind = behind || !(p.z > 0.0f);
+    }
+    if (!front && !behind) return Status::empty_cloud;
+    if (front && behind) return Status::not_organized;
+
+    Line columns{};
+    Line rows{};
+    for_each_valid([&](float u, float v, float x, float y) {
+      columns.add_to_mean(x, u);
+      rows.add_to_mean(y, v);
+    });
+    for_each_valid([&](float u, float v, float x, float y) {
+      columns.add_to_slope(x, u);
+      rows.add_to_slope(y, v);
+    });
+    columns_ = columns.projection();
+    rows_ = rows.projection();
+    for_each_valid([&](float u, float v, float x, float y) {
+      widen(columns_, x, u);
+      widen(rows_, y, v);
+    });
+    const bool pinhole = columns_.error <= 0.25f * static_cast<float>(cloud_.width) &&
+                         rows_.error <= 0.25f * static_cast<float>(cloud_.height);
+    return pinhole ? Status::ok : Status::not_organized;
+  }
+
+  /// Least squares of pixel over slope in float, by running means so that a million points do not wear it out. It need
+  /// not be exact: what the fit misses, the margin covers.
+  struct Line {
+    float count, mean_slope, mean_pixel, variance, covariance;
+
+    void add_to_mean(float slope, float pixel) noexcept {
+      count += 1.0f;
+      mean_slope += (slope - mean_slope) / count;
+      mean_pixel += (pixel - mean_pixel) / count;
+    }
+    void add_to_slope(float slope, float pixel) noexcept {
+      variance += (slope - mean_slope) * (slope - mean_slope);
+      covariance += (slope - mean_slope) * (pixel - mean_pixel);
+    }
+    [[nodiscard]] detail::Projection projection() const noexcept {
+      const float focal = variance > 0.0f ? covariance / variance : 0.0f;
+      return {focal, mean_pixel - focal * mean_slope, 0.0f};
+    }
+  };
+
+  static void widen(detail::Projection& p, float slope, float pixel) noexcept {
+    const float deviation = pixel - (p.focal * slope + p.center);
+    const float magnitude = deviation < 0.0f ? 0.0f - deviation : deviation;
+    if (!(magnitude <= p.error)) p.error = magnitude;
+  }
+
+  CloudView cloud_;
+  Status status_;
+  detail::Projection columns_;
+  detail::Projection rows_;
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/version.hpp: the only place with a version number; CMake reads it from here.
+
+namespace shortshot {
+
+inline constexpr int version_major = 0;
+inline constexpr int version_minor = 1;
+inline constexpr int version_patch = 0;
+
+}  // namespace shortshot
+
+#if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
+
+// shortshot/extract.hpp: many key points at once, on one or more threads. Hosted only: allocates, starts threads.
+
+#include <algorithm>
+#include <atomic>
+#include <thread>
+#include <vector>
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// A workspace that grows: one per thread.
+class GrowingWorkspace {
+ public:
+  [[nodiscard]] Neighborhood neighborhood() noexcept {
+    const std::size_t n = index_.size();
+    float* p = floats_.data();
+    return {p, p + n, p + 2 * n, p + 3 * n, index_.data(), static_cast<std::uint32_t>(n), 0, 0};
+  }
+  void reserve(std::size_t neighbors) {
+    if (neighbors <= index_.size()) return;
+    floats_.resize(4 * neighbors);
+    index_.resize(neighbors);
+  }
+
+ private:
+  std::vector<float> floats_;
+  std::vector<std::uint32_t> index_;
+};
+
+}  // namespace detail
+
+/// What extract() gives: one row per key point, in their order. Keep it from frame to frame and its memory is reused.
+template <class D>
+struct Features {
+  std::vector<float> values;             ///< size() * D::size, row by row; zeros where the status is not ok
+  std::vector<Status> status;            ///< one per key point
+  std::vector<std::uint32_t> neighbors;  ///< found within the larger radius, the key point itself included
+
+  [[nodiscard]] std::size_t size() const noexcept { return status.size(); }
+  [[nodiscard]] const float* operator[](std::size_t row) const noexcept {
+    return values.data() + row * static_cast<std::size_t>(D::size);
+  }
+
+  std::vector<Lab> lab;                              ///< scratch: the cloud's colours
+  std::vector<detail::GrowingWorkspace> workspaces;  ///< scratch: one per thread
+};
+
+namespace detail {
+
+/// Row `row` of the features. The workspace grows until the neighbours fit.
+template <class D, class Search>
+void extract_one(const Search& search, const KeyPoint& key, const Support& support, GrowingWorkspace& workspace,
+                 Features<D>& out, std::size_t row) {
+  float* values = out.values.data() + row * static_cast<std::size_t>(D::size);
+  Status& status = out.status[row];
+  if (!is_finite(key.position)) {
+    status = Status::invalid_keypoint;
+    return;
+  }
+  Neighborhood n = workspace.neighborhood();
+  status = gather(search, key.position, support, n);
+  if (status == Status::too_many_neighbors && n.found <= max_neighbors) {
+    workspace.reserve(n.found + n.found / 2);
+    n = workspace.neighborhood();
+    status = gather(search, key.position, support, n);
+  }
+  out.neighbors[row] = n.found;
+  if (status != Status::ok) return;
+  if constexpr (D::needs_colors) {
+    const LabColors colors{out.lab.data(), to_lab<typename LabRuleOf<D>::type>(key.color)};
+    status = describe_gathered<D>(n, colors, key.position, support, values);
+  } else {
+    status = describe_gathered<D>(n, NoColors{}, key.position, support, values);
+  }
+}
+
+/// Calls work(thread, begin, end) for blocks of [0, count), on `threads` threads of which the caller's is one.
+template <class Work>
+void for_blocks(std::size_t count, std::size_t threads, const Work& work) {
+  constexpr std::size_t block = 16;
+  std::atomic<std::size_t> next{0};
+  const auto run = [&](std::size_t thread) {
+    for (std::size_t begin = next.fetch_add(block); begin < count; begin = next.fetch_add(block)) {
+      work(thread, begin, std::min(begin + block, count));
+    }
+  };
+  std::vector<std::thread> others;
+  for (std::size_t t = 1; t < threads; ++t) others.emplace_back(run, t);
+  run(0);
+  for (std::thread& thread : others) thread.join();
+}
+
+/// `key_at(i)` gives key point i, or nothing for one outside the cloud.
+template <class D, class Search, class KeyAt>
+[[nodiscard]] Status extract_all(const CloudView& cloud, const Search& search, std::size_t count, const KeyAt& key_at,
+                                 const Support& support, Features<D>& out, unsigned threads) {
+  out.values.assign(count * static_cast<std::size_t>(D::size), 0.0f);
+  out.neighbors.assign(count, 0);
+  const Status usable = check<D>(cloud, search, support);
+  out.status.assign(count, usable);
+  if (usable != Status::ok) return usable;
+  if constexpr (D::needs_colors) {
+    out.lab.resize(cloud.size);
+    const Status converted = convert_colors<typename LabRuleOf<D>::type>(cloud, out.lab.data());
+    if (converted != Status::ok) return converted;
+  }
+  const std::size_t workers = std::max<std::size_t>(1, std::min<std::size_t>(threads, count));
+  if (out.workspaces.size() < workers) out.workspaces.resize(workers);
+  for_blocks(count, workers, [&](std::size_t thread, std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin; row < end; ++row) {
+      KeyPoint key{};
+      if (key_at(row, key)) {
+        extract_one(search, key, support, out.workspaces[thread], out, row);
+      } else {
+        out.status[row] = Status::bad_keypoint;
+      }
+    }
+  });
+  return Status::ok;
+}
+
+}  // namespace detail
+
+/// Describe many key points of a cloud, given by their indices.
+///
+/// `search`   any search over this cloud (GridSearch, NanoflannSearch, ...)
+/// `support`  radii and viewpoint; a plain float is the radius in metres
+/// `out`      one row and one Status per key point; a key point that cannot be described spoils no other
+/// `threads`  how many threads share the work; the result is the same, bit for bit, for any number
+///
+/// Returns ok if key points could be looked at at all, else why not: empty_cloud, bad_view, bad_radius, missing_colors
+/// (every row then has that status). Allocates: 12 bytes a point for colours, 20 a neighbour and thread, and the rows.
+/// May throw what std::vector and std::thread throw (on a thread of its own that ends the program).
+template <class D, class Search>
+[[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<std::uint32_t>& keypoints,
+                             const Support& support, Features<D>& out, unsigned threads = 1) {
+  const auto key_at = [&](std::size_t row, KeyPoint& key) {
+    if (keypoints[row] >= cloud.size) return false;
+    key = keypoint(cloud, keypoints[row]);
+    return true;
+  };
+  return detail::extract_all(cloud, search, keypoints.size(), key_at, support, out, threads);
+}
+
+/// The same for key points that need not be points of the cloud, each with its own position and colour.
+template <class D, class Search>
+[[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<KeyPoint>& keypoints,
+                             const Support& support, Features<D>& out, unsigned threads = 1) {
+  const auto key_at = [&](std::size_t row, KeyPoint& key) {
+    key = keypoints[row];
+    return true;
+  };
+  return detail::extract_all(cloud, search, keypoints.size(), key_at, support, out, threads);
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/sample.hpp: uniform key points, one per occupied voxel. Hosted only: allocates.
+
+#include <cmath>
+#include <tuple>
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// One key point per voxel of `leaf` metres that holds a valid point: the point nearest to the voxel's centre (the one
+/// with the smaller index if two are as near). Voxels lie on a grid through the origin.
+/// `keypoints` receives indices into the cloud in ascending order. Statuses: empty_cloud (also if no point is valid),
+/// bad_view, bad_leaf. O(n log n); allocates 24 bytes a point; the same result on every machine.
+[[nodiscard]] inline Status sample_uniform(const CloudView& cloud, float leaf, std::vector<std::uint32_t>& keypoints) {
+  keypoints.clear();
+  const Status usable = check(cloud);
+  if (usable != Status::ok) return usable;
+  if (!math::is_finite(leaf) || !(leaf > 0.0f)) return Status::bad_leaf;
+
+  // Voxel numbers stay floats: whole numbers that no extent can overflow.
+  struct Candidate {
+    float voxel[3];
+    float d2;  // to the voxel's centre, in voxels
+    std::uint32_t index;
+  };
+  const auto key = [](const Candidate& c) { return std::tie(c.voxel[2], c.voxel[1], c.voxel[0], c.d2, c.index); };
+  std::vector<Candidate> candidates;
+  candidates.reserve(cloud.size);
+  for (std::size_t i = 0; i < cloud.size; ++i) {
+    const Point p = point(cloud, i);
+    if (!is_finite(p)) continue;
+    Candidate candidate{
+        {std::floor(p.x / leaf), std::floor(p.y / leaf), std::floor(p.z / leaf)}, 0.0f, static_cast<std::uint32_t>(i)};
+    const float dx = p.x / leaf - candidate.voxel[0] - 0.5f;
+    const float dy = p.y / leaf - candidate.voxel[1] - 0.5f;
+    const float dz = p.z / leaf - candidate.voxel[2] - 0.5f;
+    candidate.d2 = (dx * dx + dy * dy) + dz * dz;
+    candidates.push_back(candidate);
+  }
+  if (candidates.empty()) return Status::empty_cloud;
+
+  std::sort(candidates.begin(), candidates.end(),
+            [&](const Candidate& a, const Candidate& b) { return key(a) < key(b); });
+  const auto same_voxel = [](const Candidate& a, const Candidate& b) {
+    return a.voxel[0] == b.voxel[0] && a.voxel[1] == b.voxel[1] && a.voxel[2] == b.voxel[2];
+  };
+  const auto end = std::unique(candidates.begin(), candidates.end(), same_voxel);
+  for (auto c = candidates.begin(); c != end; ++c) keypoints.push_back(c->index);
+  std::sort(keypoints.begin(), keypoints.end());
+  return Status::ok;
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/search/grid_hosted.hpp: the fixed-radius grid with memory of its own. Hosted only: build allocates.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// A GridIndex that owns its memory: 16 bytes a point and 4 a cell, with at most four cells a point (and 4,096)
+/// whatever the cloud's extent. A search (see brute.hpp); the cloud must outlive it. build() again for the next frame:
+/// its memory is reused. Queries are thread-safe.
+class GridSearch {
+ public:
+  GridSearch() = default;
+
+  /// Sorts the cloud into cells of `radius`. If that fails status() says why, and so do extract() and describe_at().
+  GridSearch(const CloudView& cloud, float radius) { static_cast<void>(build(cloud, radius)); }
+
+  GridSearch(const GridSearch&) = delete;  // the index points into this object's own memory
+  GridSearch& operator=(const GridSearch&) = delete;
+
+  /// See GridIndex::build(); may throw std::bad_alloc.
+  [[nodiscard]] Status build(const CloudView& cloud, float radius) {
+    const std::size_t points = check(cloud) == Status::ok ? cloud.size : 0;  // a bad view says anything of its size
+    const std::size_t cells = 4 * points + 4096;
+    if (order_.size() < points) {
+      order_.resize(points);
+      xyz_.resize(3 * points);
+    }
+    if (cell_end_.size() < cells) cell_end_.resize(cells);
+    return index_.build(cloud, radius, {order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cells});
+  }
+
+  [[nodiscard]] Status status() const noexcept { return index_.status(); }
+
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+    return index_.gather(center, radius, out);
+  }
+
+ private:
+  GridIndex<std::uint32_t> index_{};
+  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> cell_end_;
+  std::vector<float> xyz_;
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+#endif
+
+#if defined(NANOFLANN_VERSION)
+
+// shortshot/search/nanoflann.hpp: neighbours from nanoflann's k-d tree. Hosted only: building it allocates, and may
+// throw std::bad_alloc. A leaf: nothing else in the library includes it. Works with nanoflann 1.4 to 1.12.
+
+#include <nanoflann.hpp>
+#include <vector>
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// The valid points of a cloud, as nanoflann wants to see them: NaN would spoil the tree.
+struct NanoflannCloud {
+  CloudView cloud;
+  std::vector<std::uint32_t> valid;
+
+  [[nodiscard]] std::size_t kdtree_get_point_count() const { return valid.size(); }
+  [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    const Point p = point(cloud, valid[i]);
+    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+  }
+  template <class BoundingBox>
+  bool kdtree_get_bbox(BoundingBox&) const {
+    return false;
+  }
+};
+
+/// A nanoflann result set that passes candidates straight on to a neighbourhood: queries allocate nothing, and whether
+/// a candidate is a neighbour is decided by the same rule, in the same arithmetic, as in every other search.
+class NanoflannSink {
+ public:
+  using DistanceType = float;
+  using IndexType = std::uint32_t;
+
+  NanoflannSink(const NanoflannCloud& points, const Point& center, Radius radius, Neighborhood& out)
+      : points_(points), center_(center), radius_(radius), out_(out) {}
+
+  bool addPoint(float, std::uint32_t i) {
+    const std::uint32_t index = points_.valid[i];
+    offer(out_, point(points_.cloud, index), index, center_, radius_.squared);
+    return true;
+  }
+  /// A little more than the radius, so that the tree's own rounding loses nobody on the rim.
+  [[nodiscard]] float worstDist() const { return radius_.squared * 1.00001f; }
+  [[nodiscard]] std::size_t size() const { return out_.size; }
+  [[nodiscard]] bool empty() const { return out_.size == 0; }
+  [[nodiscard]] bool full() const { return true; }
+  void sort() {}
+
+ private:
+  const NanoflannCloud& points_;
+  Point center_;
+  Radius radius_;
+  Neighborhood& out_;
+};
+
+}  // namespace detail
+
+/// A k-d tree over a cloud; a search (see brute.hpp). The cloud must outlive it. Queries are thread-safe.
+class NanoflannSearch {
+ public:
+  /// Builds the tree: O(n log n), allocates. `leaf_size` is the most points in a leaf. An empty or bad view gives a
+  /// search that finds nothing; status() says why.
+  explicit NanoflannSearch(const CloudView& cloud, std::size_t leaf_size = 10)
+      : points_{cloud, valid_points(cloud)},
+        tree_(3, points_, {leaf_size, nanoflann::KDTreeSingleIndexAdaptorFlags::SkipInitialBuildIndex}) {
+    if (!points_.valid.empty()) tree_.buildIndex();
+  }
+  NanoflannSearch(const NanoflannSearch&) = delete;  // the tree refers to points_
+  NanoflannSearch& operator=(const NanoflannSearch&) = delete;
+
+  [[nodiscard]] Status status() const noexcept {
+    const Status usable = check(points_.cloud);
+    return usable == Status::ok && points_.valid.empty() ? Status::empty_cloud : usable;
+  }
+
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+    clear(out);
+    if (status() != Status::ok) return status();
+    if (!is_finite(center)) return Status::ok;
+    detail::NanoflannSink sink(points_, center, radius, out);
+    const float query[3] = {center.x, center.y, center.z};
+    tree_.findNeighbors(sink, query, {});  // {}: SearchParams up to 1.4, SearchParameters from 1.5 on
+    return outcome(out);
+  }
+
+ private:
+  using Distance = nanoflann::L2_Simple_Adaptor<float, detail::NanoflannCloud, float, std::uint32_t>;
+  using Tree = nanoflann::KDTreeSingleIndexAdaptor<Distance, detail::NanoflannCloud, 3, std::uint32_t>;
+
+  [[nodiscard]] static std::vector<std::uint32_t> valid_points(const CloudView& cloud) {
+    std::vector<std::uint32_t> valid;
+    if (check(cloud) != Status::ok) return valid;
+    valid.reserve(cloud.size);
+    for (std::size_t i = 0; i < cloud.size; ++i) {
+      if (is_finite(point(cloud, i))) valid.push_back(static_cast<std::uint32_t>(i));
+    }
+    return valid;
+  }
+
+  detail::NanoflannCloud points_;
+  Tree tree_;
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+#endif
+
+#if defined(EIGEN_WORLD_VERSION)
+
+// shortshot/adapters/eigen.hpp: views of Eigen matrices and maps, points as columns or as rows. Works with Eigen 3.4
+// to 5.
+
+#include <Eigen/Core>
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// Where component `c` of point 0 lies in a matrix whose points are its columns (3xN) or its rows (Nx3).
+template <class Matrix>
+struct EigenPoints {
+  static constexpr bool columns = Matrix::RowsAtCompileTime == 3;
+  static_assert(columns || Matrix::ColsAtCompileTime == 3, "Eigen views support 3 x N and N x 3 matrices and maps");
+
+  [[nodiscard]] static std::size_t count(const Matrix& m) noexcept {
+    return static_cast<std::size_t>(columns ? m.cols() : m.rows());
+  }
+  /// Elements from one component, or one point, to the next.
+  [[nodiscard]] static std::size_t component_step(const Matrix& m) noexcept {
+    return static_cast<std::size_t>(columns != static_cast<bool>(Matrix::IsRowMajor) ? m.innerStride()
+                                                                                     : m.outerStride());
+  }
+  [[nodiscard]] static std::size_t point_step(const Matrix& m) noexcept {
+    return static_cast<std::size_t>(columns != static_cast<bool>(Matrix::IsRowMajor) ? m.outerStride()
+                                                                                     : m.innerStride());
+  }
+};
+
+/// Matrices own their memory; maps and blocks borrow it.
+template <class Matrix>
+using IfOwning = std::enable_if_t<std::is_base_of<Eigen::PlainObjectBase<Matrix>, Matrix>::value>;
+
+}  // namespace detail
+
+/// View of float points: Matrix3Xf, MatrixX3f, row- or column-major, or a Map of them with any strides. Borrowed.
+template <class Matrix>
+[[nodiscard]] CloudView view_eigen(const Matrix& xyz) noexcept {
+  static_assert(std::is_same<typename Matrix::Scalar, float>::value, "view_eigen() supports float coordinates");
+  using Points = detail::EigenPoints<Matrix>;
+  CloudView view{};
+  view.size = Points::count(xyz);
+  view.width = view.size;
+  view.height = 1;
+  view.points = detail::float3_channel(xyz.data(), Points::component_step(xyz) * sizeof(float),
+                                       Points::point_step(xyz) * sizeof(float));
+  return view;
+}
+
+/// The same with colours: a matrix of bytes r g b of either shape. bad_view if the numbers of points differ.
+template <class Matrix, class Colors>
+[[nodiscard]] CloudView view_eigen(const Matrix& xyz, const Colors& rgb) noexcept {
+  static_assert(sizeof(typename Colors::Scalar) == 1, "view_eigen() supports colours of one byte each");
+  using Points = detail::EigenPoints<Colors>;
+  CloudView view = view_eigen(xyz);
+  const auto* first = reinterpret_cast<const unsigned char*>(rgb.data());
+  view.colors = detail::color_channel(first, Points::component_step(rgb), Points::point_step(rgb));
+  if (Points::count(rgb) != view.size) {  // a view of nothing, and of more than nothing: bad_view everywhere
+    view.points = {};
+    view.size = 1;
+  }
+  return view;
+}
+
+/// A matrix (not a map) that dies at the end of the statement cannot be viewed.
+template <class Matrix, class = detail::IfOwning<Matrix>>
+CloudView view_eigen(const Matrix&& xyz) = delete;
+template <class Matrix, class Colors, class = detail::IfOwning<Matrix>>
+CloudView view_eigen(const Matrix&& xyz, const Colors& rgb) = delete;
+template <class Matrix, class Colors, class = detail::IfOwning<Colors>>
+CloudView view_eigen(const Matrix& xyz, const Colors&& rgb) = delete;
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+#endif

@@ -1,0 +1,14 @@
+// One function, compiled several times for different instruction sets (isa_probe.cpp), in one program (isas.cpp).
+#pragma once
+
+#include <shortshot/kernel.hpp>
+
+struct IsaProbe {
+  shortshot::Status status;
+  const char* message;
+  float descriptor[shortshot::Scsh336::size];
+};
+
+IsaProbe describe_sse2();
+IsaProbe describe_scalar();
+IsaProbe describe_avx2();

@@ -1,0 +1,41 @@
+// Firmware-style code that uses all of the kernel. The tests compile it for several machines and look at the object: it
+// may take nothing from elsewhere but memset and memcpy (check_symbols.sh).
+#include <shortshot/kernel.hpp>
+
+namespace {
+
+constexpr std::size_t max_points = 500;
+constexpr std::size_t max_neighbors = 128;
+
+shortshot::Workspace<max_neighbors> workspace;
+shortshot::StaticGrid<max_points, 1024> grid;
+shortshot::OrganizedSearch image;
+float descriptor[shortshot::Scsh696::size];
+
+using Multilinear = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::MultilinearVoting>;
+using Hard = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::HardVoting, shortshot::LogRadius<>>;
+using Pcl = shortshot::Scsh<shortshot::SphericalGrid<2, 2, 8>, shortshot::SphericalGrid<2, 2, 4>, 15,
+                            shortshot::PublishedVoting, shortshot::LinearRadius, shortshot::PclLab>;
+
+template <class D, class Search>
+shortshot::Status describe(const shortshot::CloudView& cloud, const Search& search, std::size_t index, float radius) {
+  return shortshot::describe_at<D>(cloud, search, index, radius, workspace, descriptor);
+}
+
+}  // namespace
+
+extern "C" const float* describe_patch(const float* xyz, const unsigned char* rgb, std::size_t count, std::size_t width,
+                                       std::size_t index, float radius, const char** message) {
+  using shortshot::Status;
+  const shortshot::CloudView cloud = shortshot::view_xyz_rgb(xyz, rgb, count);
+  Status status = grid.build(cloud, radius);
+  if (status == Status::ok) status = describe<shortshot::Ssh32>(cloud, grid, index, radius);
+  if (status == Status::ok) status = describe<shortshot::Scsh336>(cloud, grid, index, radius);
+  if (status == Status::ok) status = describe<shortshot::Scsh696>(cloud, shortshot::BruteSearch{cloud}, index, radius);
+  if (status == Status::ok) status = image.build(shortshot::organized(cloud, width, count / width));
+  if (status == Status::ok) status = describe<Multilinear>(cloud, image, index, radius);
+  if (status == Status::ok) status = describe<Hard>(cloud, image, index, radius);
+  if (status == Status::ok) status = describe<Pcl>(cloud, image, index, radius);
+  *message = shortshot::message(status);
+  return descriptor;
+}

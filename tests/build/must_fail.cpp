@@ -1,0 +1,51 @@
+// Configurations that cannot work. CASE 0 is what does work; every other one must be refused by a message that says
+// what is supported.
+#include <array>
+#include <shortshot/shortshot.hpp>
+
+namespace {
+
+using shortshot::Workspace;
+template <int R, int E, int A>
+using Grid = shortshot::SphericalGrid<R, E, A>;
+
+struct FloatPoint {
+  float x, y, z;
+};
+struct DoublePoint {
+  double x, y, z;
+};
+
+}  // namespace
+
+#if CASE == 0
+constexpr std::array<FloatPoint, 1> kept_points{};
+static_assert(Grid<1, 4, 8>::cells == 32, "");
+static_assert(shortshot::ColorDistance<1>::bins == 1, "");
+static_assert(sizeof(Workspace<5>) == 100, "");
+static_assert(sizeof(shortshot::LogRadius<1, 2>) == 1, "");
+static_assert(sizeof(shortshot::StaticGrid<1, 1>) > 0, "");
+shortshot::CloudView view() { return shortshot::view_of(kept_points); }
+#elif CASE == 1
+static_assert(Grid<0, 4, 8>::cells == 0, "");
+#elif CASE == 2
+static_assert(shortshot::ColorDistance<0>::bins == 0, "");
+#elif CASE == 3
+Workspace<0> workspace;
+#elif CASE == 4
+static_assert(sizeof(shortshot::LogRadius<2, 1>) == 1, "");
+#elif CASE == 5
+shortshot::CloudView view(const std::array<DoublePoint, 2>& cloud) { return shortshot::view_of(cloud); }
+#elif CASE == 6
+shortshot::CloudView view() { return shortshot::view_of(std::array<FloatPoint, 2>{}); }
+#elif CASE == 7
+shortshot::StaticGrid<0, 8> grid;
+#elif CASE == 8
+static_assert(Grid<2000, 1, 1>::cells == 2000, "");
+#elif CASE == 9
+static_assert(shortshot::Descriptor<shortshot::PublishedVoting>::size == 0, "");
+#elif CASE == 10
+static_assert(shortshot::Ssh<Grid<64, 64, 64>>::size == 262144, "");
+#elif CASE == 11
+shortshot::GridIndex<int> grid;
+#endif

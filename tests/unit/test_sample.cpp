@@ -1,0 +1,128 @@
+// sample_uniform(): one key point per voxel, the one nearest to its centre.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+#include "fixtures.hpp"
+
+namespace {
+
+using namespace unit;
+using ss::Status;
+
+std::vector<std::uint32_t> sampled(const TestCloud& cloud, float leaf) {
+  std::vector<std::uint32_t> keypoints{99};
+  REQUIRE(ss::sample_uniform(cloud.view(), leaf, keypoints) == Status::ok);
+  return keypoints;
+}
+
+/// By definition, in double; exact for a cloud and a leaf of powers of two.
+std::vector<std::uint32_t> expected_sample(const TestCloud& cloud, double leaf) {
+  using Voxel = std::tuple<double, double, double>;
+  std::map<Voxel, std::pair<double, std::uint32_t>> best;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const ss::Point p = cloud.at(i);
+    if (!ss::is_finite(p)) continue;
+    double d2 = 0.0;
+    const auto voxel = [&d2, leaf](float v) {
+      const double position = static_cast<double>(v) / leaf;
+      const double number = std::floor(position);
+      d2 += (position - number - 0.5) * (position - number - 0.5);
+      return number;
+    };
+    const double x = voxel(p.x), y = voxel(p.y), z = voxel(p.z);
+    const std::pair<double, std::uint32_t> candidate{d2, static_cast<std::uint32_t>(i)};
+    const auto place = best.emplace(Voxel{x, y, z}, candidate).first;
+    place->second = std::min(place->second, candidate);
+  }
+  std::vector<std::uint32_t> indices;
+  for (const auto& each : best) indices.push_back(each.second.second);
+  std::sort(indices.begin(), indices.end());
+  return indices;
+}
+
+TestCloud dyadic_cloud(std::uint32_t seed, std::size_t points, int digits) {
+  Random random(seed);
+  TestCloud cloud;
+  for (std::size_t i = 0; i < points; ++i) {
+    const float x = random.dyadic(-1.0f, 1.0f, digits);
+    const float y = random.dyadic(-1.0f, 1.0f, digits);
+    cloud.add(x, y, random.dyadic(-1.0f, 1.0f, digits));
+  }
+  return cloud;
+}
+
+}  // namespace
+
+TEST_CASE("sample: one per voxel, nearest to the centre, ties by index, in ascending order") {
+  // Ten digits: hardly any ties. Four: many points are equally near, and many coincide.
+  for (const int digits : {10, 4}) {
+    const TestCloud cloud = dyadic_cloud(1, 3000, digits);
+    for (const float leaf : {0.125f, 0.25f, 4.0f}) {
+      const std::vector<std::uint32_t> keypoints = sampled(cloud, leaf);
+      CHECK(std::is_sorted(keypoints.begin(), keypoints.end()));
+      CHECK(keypoints == expected_sample(cloud, static_cast<double>(leaf)));
+    }
+  }
+}
+
+TEST_CASE("sample: voxels on both sides of zero are different voxels") {
+  TestCloud cloud;
+  cloud.add(0.1f, 0.1f, 0.1f);
+  cloud.add(-0.1f, 0.1f, 0.1f);
+  cloud.add(0.1f, -0.1f, 0.1f);
+  cloud.add(0.1f, 0.1f, -0.1f);
+  cloud.add(-0.0f, 0.0f, 0.0f);  // in the first one's voxel, farther from its centre
+  CHECK(sampled(cloud, 0.25f) == std::vector<std::uint32_t>{0, 1, 2, 3});
+}
+
+TEST_CASE("sample: points that are not finite are never chosen") {
+  TestCloud cloud = dyadic_cloud(2, 500, 8);
+  for (std::size_t i = 0; i < cloud.xyz.size(); i += 4) cloud.xyz[i] = i % 8 == 0 ? not_a_number : infinity;
+  const std::vector<std::uint32_t> keypoints = sampled(cloud, 0.25f);
+  CHECK(keypoints == expected_sample(cloud, 0.25));
+}
+
+TEST_CASE("sample: extents that no integer could number") {
+  TestCloud cloud = dyadic_cloud(3, 200, 8);
+  for (const float far : {1e6f, 1e12f, 1e30f, 3e38f}) {
+    cloud.add(far, 0.0f, 0.0f);
+    cloud.add(-far, far, -far);
+    cloud.add(far, 0.0f, 0.0f);  // a copy: the same voxel, the larger index
+  }
+  const std::vector<std::uint32_t> near = expected_sample(dyadic_cloud(3, 200, 8), 0.25);
+  std::vector<std::uint32_t> expected = near;
+  for (std::uint32_t k = 0; k < 4; ++k) expected.insert(expected.end(), {200 + 3 * k, 201 + 3 * k});
+  CHECK(sampled(cloud, 0.25f) == expected);
+  // With millimetre voxels the farthest points' numbers leave float's range altogether: still no crash, still sorted.
+  const std::vector<std::uint32_t> fine = sampled(cloud, 1e-3f);
+  CHECK(std::is_sorted(fine.begin(), fine.end()));
+  CHECK(fine.size() > near.size());
+}
+
+TEST_CASE("sample: the order of the points does not matter") {
+  const TestCloud cloud = dyadic_cloud(4, 2000, 12);
+  std::vector<std::uint32_t> order(cloud.size());
+  std::iota(order.begin(), order.end(), 0u);
+  Random random(5);
+  for (std::size_t k = order.size() - 1; k > 0; --k) std::swap(order[k], order[random.below(k + 1)]);
+  TestCloud shuffled;
+  for (const std::uint32_t i : order) shuffled.add(cloud.at(i));
+  std::vector<std::uint32_t> mapped;
+  for (const std::uint32_t i : sampled(shuffled, 0.125f)) mapped.push_back(order[i]);
+  std::sort(mapped.begin(), mapped.end());
+  CHECK(mapped == sampled(cloud, 0.125f));
+}
+
+TEST_CASE("sample: every finite voxel size above zero is a voxel size") {
+  const TestCloud cloud = dyadic_cloud(6, 50, 6);
+  CHECK(sampled(cloud, 1e25f).size() == 8);  // one an octant
+  CHECK(sampled(cloud, 1e-25f).size() == 50);
+}
