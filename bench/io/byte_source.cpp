@@ -1,0 +1,98 @@
+#include "byte_source.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <fstream>
+#include <ios>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
+namespace shortshot_bench {
+namespace {
+
+// Only regular files: a directory has no bytes to read, and a device may never end.
+std::uintmax_t regular_file_size(const std::string& path) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found) {
+    throw InputError::at_byte(path, 0, "expected a point cloud file, found no file of this name");
+  }
+  if (status.type() == std::filesystem::file_type::directory) {
+    throw InputError::at_byte(path, 0, "expected a point cloud file, found a directory");
+  }
+  if (status.type() != std::filesystem::file_type::regular) {
+    throw InputError::at_byte(path, 0, "expected a regular file, found something else");
+  }
+  const std::uintmax_t size_bytes = std::filesystem::file_size(path, error);
+  if (error) throw InputError::at_byte(path, 0, "cannot find out the file size: " + error.message());
+  return size_bytes;
+}
+
+// A sparse file may claim more bytes than there is memory.
+std::string zeroed_bytes(const std::string& path, std::uintmax_t size_bytes) {
+  try {
+    if (size_bytes > std::string().max_size()) throw std::length_error("more than the address space");
+    return std::string(static_cast<std::size_t>(size_bytes), '\0');
+  } catch (const std::bad_alloc&) {
+  } catch (const std::length_error&) {
+  }
+  throw InputError::at_byte(path, 0, "the file's " + std::to_string(size_bytes) + " bytes exceed the memory");
+}
+
+std::string read_whole_file(const std::string& path) {
+  std::string bytes = zeroed_bytes(path, regular_file_size(path));
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    throw InputError::at_byte(path, 0, "cannot open the file: " + std::generic_category().message(errno));
+  }
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  const auto read_bytes = static_cast<std::size_t>(file.gcount());
+  if (file.bad() || read_bytes != bytes.size()) {
+    throw InputError::at_byte(path, read_bytes,
+                              "cannot read on to the file's end at byte " + std::to_string(bytes.size()));
+  }
+  return bytes;
+}
+
+}  // namespace
+
+ByteSource::ByteSource(const std::string& path) : path_(path), bytes_(read_whole_file(path)) {}
+
+bool ByteSource::next_line(std::string_view& line) {
+  const std::string_view rest_of_file = rest();
+  if (rest_of_file.empty()) return false;
+  const std::size_t length = std::min(rest_of_file.find('\n'), rest_of_file.size());
+  offset_bytes_ += std::min(length + 1, rest_of_file.size());
+  ++line_number_;
+  line = rest_of_file.substr(0, length);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return true;
+}
+
+std::string_view ByteSource::take(std::uint64_t size_bytes, const char* what) {
+  if (size_bytes > remaining_bytes()) {
+    throw byte_error("expected " + std::to_string(size_bytes) + " bytes of " + what + ", found only " +
+                     std::to_string(remaining_bytes()));
+  }
+  const std::string_view taken = rest().substr(0, static_cast<std::size_t>(size_bytes));
+  offset_bytes_ += taken.size();
+  return taken;
+}
+
+void ByteSource::rewind() {
+  offset_bytes_ = 0;
+  line_number_ = 0;
+}
+
+InputError ByteSource::line_error(const std::string& what) const {
+  return InputError::at_line(path_, std::max<std::size_t>(line_number_, 1), what);
+}
+
+InputError ByteSource::byte_error(const std::string& what) const {
+  return InputError::at_byte(path_, offset_bytes_, what);
+}
+
+}  // namespace shortshot_bench
