@@ -1,0 +1,25 @@
+// What the demo is asked to do.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace shortshot_bench {
+
+struct DemoOptions {
+  std::vector<std::string> clouds;  // files; empty: the generated tabletop
+  std::string descriptor = "scsh336";
+  float radius = 0.04f;
+  float leaf = 0.02f;
+  std::string search = "grid";
+  unsigned threads = 1;
+  std::string out;  // empty: nothing is written
+  bool towards_camera = false;
+  bool check = false;
+};
+
+/// Parses the command line. Returns true if there is something to do; otherwise `exit_code` is 0 (help was asked for)
+/// or 2 (a message about what is wrong has been printed).
+bool parse_options(int argc, const char* const* argv, DemoOptions& options, int& exit_code);
+
+}  // namespace shortshot_bench
