@@ -21,11 +21,15 @@
 
 // Set by us: code compiled for another instruction set lives in another inline namespace, so that two translation
 // units of one program may be compiled with different -m flags without one's code being linked into the other.
-#if defined(__AVX2__)
+#if defined(__AVX512F__)
+#define SHORTSHOT_ISA isa_avx512
+#elif defined(__AVX2__)
 #define SHORTSHOT_ISA isa_avx2
 #elif defined(__AVX__)
 #define SHORTSHOT_ISA isa_avx
-#elif defined(__SSE2__) || defined(_M_X64)
+#elif defined(__SSE4_1__)
+#define SHORTSHOT_ISA isa_sse4
+#elif defined(__SSE2__)
 #define SHORTSHOT_ISA isa_sse2
 #elif defined(__ARM_NEON)
 #define SHORTSHOT_ISA isa_neon
