@@ -19,8 +19,9 @@
 
 // shortshot/config.hpp: the one macro the library sets. There is none for you to set: options are template parameters.
 
-// Set by us: code compiled for another instruction set lives in another inline namespace, so that two translation
-// units of one program may be compiled with different -m flags without one's code being linked into the other.
+// Set by us: the kernel's code compiled for another instruction set lives in another inline namespace, so that two
+// translation units of one program may be compiled with different -m flags without one's code being linked into the
+// other.
 #if defined(__AVX512F__)
 #define SHORTSHOT_ISA isa_avx512
 #elif defined(__AVX2__)
@@ -87,6 +88,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GT_OQ)}; }
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm256_and_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {_mm256_xor_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm256_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm256_sqrt_ps(a.v)}; }
@@ -96,10 +98,18 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 
 /// yes where m, else no.
 [[nodiscard]] inline F32 select(Mask m, F32 yes, F32 no) noexcept { return {_mm256_blendv_ps(no.v, yes.v, m.v)}; }
+/// -a where m, else a.
+[[nodiscard]] inline F32 negate(Mask m, F32 a) noexcept {
+  return {_mm256_xor_ps(a.v, _mm256_and_ps(m.v, _mm256_set1_ps(-0.0f)))};
+}
 /// a where m, else zero.
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {_mm256_and_ps(m.v, a.v)}; }
 /// 1 where m, else zero.
 [[nodiscard]] inline I32 ones(Mask m) noexcept { return {_mm256_srli_epi32(_mm256_castps_si256(m.v), 31)}; }
+
+/// The integers whose bits are those of a.
+[[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {_mm256_castps_si256(a.v)}; }
+[[nodiscard]] inline F32 to_float(I32 a) noexcept { return {_mm256_cvtepi32_ps(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
 [[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {_mm256_cvttps_epi32(a.v)}; }
@@ -153,6 +163,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {_mm_cmpgt_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm_cmpge_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm_and_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {_mm_xor_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm_sqrt_ps(a.v)}; }
@@ -164,10 +175,18 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
 [[nodiscard]] inline F32 select(Mask m, F32 yes, F32 no) noexcept {
   return {_mm_or_ps(_mm_and_ps(m.v, yes.v), _mm_andnot_ps(m.v, no.v))};
 }
+/// -a where m, else a.
+[[nodiscard]] inline F32 negate(Mask m, F32 a) noexcept {
+  return {_mm_xor_ps(a.v, _mm_and_ps(m.v, _mm_set1_ps(-0.0f)))};
+}
 /// a where m, else zero.
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {_mm_and_ps(m.v, a.v)}; }
 /// 1 where m, else zero.
 [[nodiscard]] inline I32 ones(Mask m) noexcept { return {_mm_srli_epi32(_mm_castps_si128(m.v), 31)}; }
+
+/// The integers whose bits are those of a.
+[[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {_mm_castps_si128(a.v)}; }
+[[nodiscard]] inline F32 to_float(I32 a) noexcept { return {_mm_cvtepi32_ps(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
 [[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {_mm_cvttps_epi32(a.v)}; }
@@ -219,6 +238,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {vcgtq_f32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {vcgeq_f32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {vandq_u32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {veorq_u32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {vorrq_u32(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {vsqrtq_f32(a.v)}; }
@@ -228,12 +248,20 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 
 /// yes where m, else no.
 [[nodiscard]] inline F32 select(Mask m, F32 yes, F32 no) noexcept { return {vbslq_f32(m.v, yes.v, no.v)}; }
+/// -a where m, else a.
+[[nodiscard]] inline F32 negate(Mask m, F32 a) noexcept {
+  return {vreinterpretq_f32_u32(veorq_u32(vreinterpretq_u32_f32(a.v), vshlq_n_u32(m.v, 31)))};
+}
 /// a where m, else zero.
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept {
   return {vreinterpretq_f32_u32(vandq_u32(m.v, vreinterpretq_u32_f32(a.v)))};
 }
 /// 1 where m, else zero.
 [[nodiscard]] inline I32 ones(Mask m) noexcept { return {vreinterpretq_s32_u32(vshrq_n_u32(m.v, 31))}; }
+
+/// The integers whose bits are those of a.
+[[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {vreinterpretq_s32_f32(a.v)}; }
+[[nodiscard]] inline F32 to_float(I32 a) noexcept { return {vcvtq_f32_s32(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
 [[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {vcvtq_s32_f32(a.v)}; }
@@ -266,7 +294,8 @@ struct Mask {
   bool v;
 };
 
-/// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
+/// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno; where there is no
+/// instruction for it, this does too (libm's sqrtf is exactly rounded everywhere).
 [[nodiscard]] inline float root(float value) noexcept {
 #if defined(__ARM_FP)
   float result;
@@ -291,6 +320,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {a.v > b.v}; }
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {a.v >= b.v}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
+[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {root(a.v)}; }
@@ -300,10 +330,20 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 
 /// yes where m, else no.
 [[nodiscard]] inline F32 select(Mask m, F32 yes, F32 no) noexcept { return {m.v ? yes.v : no.v}; }
+/// -a where m, else a.
+[[nodiscard]] inline F32 negate(Mask m, F32 a) noexcept { return {m.v ? -a.v : a.v}; }
 /// a where m, else zero.
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {m.v ? a.v : 0.0f}; }
 /// 1 where m, else zero.
 [[nodiscard]] inline I32 ones(Mask m) noexcept { return {m.v ? 1 : 0}; }
+
+/// The integers whose bits are those of a.
+[[nodiscard]] inline I32 bits_of(F32 a) noexcept {
+  I32 bits{};
+  std::memcpy(&bits.v, &a.v, sizeof bits.v);
+  return bits;
+}
+[[nodiscard]] inline F32 to_float(I32 a) noexcept { return {static_cast<float>(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
 [[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {static_cast<std::int32_t>(a.v)}; }
@@ -311,12 +351,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 
 /// To the nearest integer, ties to even; |a| <= 2^22. Adding 1.5 * 2^23 leaves the integer in the low mantissa bits:
 /// the same bits on every machine, with no call into libm.
-[[nodiscard]] inline I32 round_to_int(F32 a) noexcept {
-  const float shifted = a.v + 12582912.0f;
-  std::int32_t bits = 0;
-  std::memcpy(&bits, &shifted, sizeof bits);
-  return {bits - 0x4B400000};
-}
+[[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {bits_of({a.v + 12582912.0f}).v - 0x4B400000}; }
 
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA
@@ -405,8 +440,7 @@ struct HalfTurns {
   const simd::Mask steep = ay > ax;
   const simd::Mask backward = x < all(0.0f);
   const simd::F32 quarter = simd::select(steep, all(0.25f), simd::keep(backward, all(0.5f)));
-  const simd::F32 turned = simd::select(steep, all(0.0f) - eighth, eighth);
-  return {quarter, simd::select(backward, all(0.0f) - turned, turned)};
+  return {quarter, simd::negate(steep ^ backward, eighth)};
 }
 
 /// The angle from the z axis, 0 at z > 0 to 1 at z < 0 (theta / pi); rho >= 0 is the distance from the axis.
@@ -421,8 +455,7 @@ struct HalfTurns {
   using simd::all;
   const HalfTurns half = half_turns(x, y);
   const simd::Mask below = y < all(0.0f);
-  return select(below, all(0.5f) - half.quarter, all(0.5f) + half.quarter) +
-         select(below, all(0.0f) - half.rest, half.rest);
+  return (all(0.5f) + simd::negate(below, half.quarter)) + simd::negate(below, half.rest);
 }
 
 /// Natural logarithm of a positive normal number, absolute error below 2e-7 near 1, relative below 2e-7 elsewhere.
@@ -519,11 +552,11 @@ enum class [[nodiscard]] Status : std::uint8_t {
   bad_keypoint,        ///< a key point's index lies outside the cloud
   invalid_keypoint,    ///< a key point's position is not finite
   missing_colors,      ///< the descriptor needs colours and the cloud has none
-  missing_normals,     ///< the descriptor needs normals and the cloud has none
   too_few_neighbors,   ///< no neighbour to describe, or fewer than five for a local reference frame
   too_many_neighbors,  ///< the neighbourhood does not fit the workspace; Neighborhood::found says what it takes
   ambiguous_frame,     ///< collinear or symmetric neighbourhood: two principal axes cannot be told apart
   bad_frame,           ///< a given frame is not orthonormal, or not finite
+  bad_viewpoint,       ///< a viewpoint is not finite
   bad_leaf,            ///< a voxel size is not a finite number above zero
   out_of_memory,       ///< caller-provided memory is too small for the cloud
   not_organized,       ///< the cloud is no image of a pinhole camera, so it has no image window to search
@@ -544,11 +577,11 @@ inline namespace SHORTSHOT_ISA {
     case Status::bad_keypoint: return "the key point's index lies outside the cloud";
     case Status::invalid_keypoint: return "the key point is not finite";
     case Status::missing_colors: return "the descriptor needs colours and the cloud has none";
-    case Status::missing_normals: return "the descriptor needs normals and the cloud has none";
     case Status::too_few_neighbors: return "too few neighbours within the radius";
     case Status::too_many_neighbors: return "more neighbours than the workspace can hold";
     case Status::ambiguous_frame: return "the neighbourhood is too symmetric for a local reference frame";
     case Status::bad_frame: return "the given frame is not orthonormal";
+    case Status::bad_viewpoint: return "the viewpoint is not finite";
     case Status::bad_leaf: return "a voxel size must be finite and above zero";
     case Status::out_of_memory: return "the memory provided is too small";
     case Status::not_organized: return "the cloud is not an image of a pinhole camera";
@@ -677,6 +710,20 @@ namespace detail {
   return math::is_finite(p.x) && math::is_finite(p.y) && math::is_finite(p.z);
 }
 
+/// Coordinate 0, 1 or 2 of a point.
+[[nodiscard]] inline float coordinate(const Point& p, std::size_t axis) noexcept {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+/// Calls f(index, point) for each point with three finite coordinates, in order.
+template <class Function>
+void for_each_valid(const CloudView& cloud, Function f) {
+  for (std::size_t i = 0; i < cloud.size; ++i) {
+    const Point p = point(cloud, i);
+    if (is_finite(p)) f(i, p);
+  }
+}
+
 /// The colour of point `index`; the cloud must have colours.
 [[nodiscard]] inline Rgb color(const CloudView& cloud, std::size_t index) noexcept {
   const std::size_t offset = index * cloud.colors.stride_bytes;
@@ -725,8 +772,8 @@ template <class Message>
 /// height and is_bigendian. Fields x, y, z must be FLOAT32; colour is a field `rgb` or `rgba`, a FLOAT32 or UINT32 with
 /// 0xAARRGGBB packed into it. The view borrows the message's bytes.
 ///
-/// Status bad_view (and an empty view): no x, y or z of that type, a field outside point_step, data shorter than
-/// width * height points, padded rows, or the other byte order. No allocation.
+/// Statuses: empty_cloud (no point); bad_view (and an empty view): no x, y or z of that type, a field outside
+/// point_step, data shorter than width * height points, padded rows, or the other byte order. No allocation.
 template <class Message>
 [[nodiscard]] Status view_point_cloud2(const Message& message, CloudView& view) noexcept {
   view = CloudView{};
@@ -773,6 +820,7 @@ Status view_point_cloud2(const Message&& message, CloudView& view) = delete;
 // No other library is included: whatever has the members is understood. A point needs float x, y, z (in that or any
 // order, with any padding) and, for colour, one-byte r, g, b (in any order: PCL keeps b, g, r, a).
 
+#include <iterator>
 #include <type_traits>
 #include <utility>
 
@@ -817,7 +865,7 @@ template <class P>
   return view;
 }
 
-/// View of a std::vector, std::array or anything else with data() and size(); or of a pcl::PointCloud-shaped object:
+/// View of an array, a std::vector or anything else with data() and size(); or of a pcl::PointCloud-shaped object:
 /// `points` with data() and size(), and `width` and `height`.
 template <class Container>
 [[nodiscard]] CloudView view_of(const Container& cloud) noexcept {
@@ -827,7 +875,7 @@ template <class Container>
                ? organized(view, cloud.width, cloud.height)
                : view;
   } else {
-    return view_of(cloud.data(), cloud.size());
+    return view_of(std::data(cloud), std::size(cloud));
   }
 }
 
@@ -838,8 +886,9 @@ CloudView view_of(const Container&& cloud) = delete;
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
-// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no libm, no static
-// initialiser. Freestanding but for <array>, <cstddef>, <cstdint>, <cstring> and <type_traits>.
+// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initialiser, no
+// libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
+// <type_traits> and <utility> of the standard library. <cstdint>, <cstring> and <type_traits>.
 
 // shortshot/describe_at.hpp: one key point from cloud to descriptor: search, frame and kernel in one call.
 
@@ -951,12 +1000,22 @@ template <class Rule>
   return {lightness > 100.0f ? 100.0f : lightness, clamped(500.0f * (fx - fy)), clamped(200.0f * (fy - fz))};
 }
 
-/// CSHOT's colour distance in [0, 1]: L1 over L / 100 and the mean of a / 120 and b / 120, over three.
+/// Lanes of CIELAB colours.
+struct LabLanes {
+  simd::F32 L, a, b;
+};
+
+/// CSHOT's colour distance in [0, 1]: (|dL| / 100 + (|da| / 120 + |db| / 120) / 2) / 3.
+[[nodiscard]] inline simd::F32 color_distance(const LabLanes& p, const LabLanes& q) noexcept {
+  using simd::all;
+  const simd::F32 chroma = simd::abs(p.a - q.a) + simd::abs(p.b - q.b);
+  const simd::F32 distance = simd::abs(p.L - q.L) * all(1.0f / 300.0f) + chroma * all(1.0f / 720.0f);
+  return simd::min(distance, all(1.0f));  // 1 for somebody else's NaN, too
+}
+
 [[nodiscard]] inline float color_distance(const Lab& p, const Lab& q) noexcept {
-  const auto magnitude = [](float value) { return value < 0.0f ? -value : value; };
-  const float chroma = magnitude(p.a - q.a) / 120.0f + magnitude(p.b - q.b) / 120.0f;
-  const float distance = (magnitude(p.L - q.L) / 100.0f + chroma / 2.0f) / 3.0f;
-  return distance < 1.0f ? distance : 1.0f;  // also for a NaN of somebody else's Lab
+  const auto lanes = [](const Lab& c) { return LabLanes{simd::all(c.L), simd::all(c.a), simd::all(c.b)}; };
+  return simd::largest(color_distance(lanes(p), lanes(q)));
 }
 
 }  // namespace SHORTSHOT_ISA
@@ -980,8 +1039,8 @@ template <int Radial, int Elevation, int Azimuth>
 struct SphericalGrid {
   static_assert(Radial >= 1 && Elevation >= 1 && Azimuth >= 1,
                 "SphericalGrid<Radial, Elevation, Azimuth> supports one or more divisions of each kind");
-  static_assert(Radial <= 1024 && Elevation <= 1024 && Azimuth <= 1024,
-                "SphericalGrid<Radial, Elevation, Azimuth> supports up to 1024 divisions of each kind");
+  static_assert(Radial <= 1024 && Elevation <= 1024 && Azimuth <= 1024 && 1LL * Radial * Elevation * Azimuth <= 65536,
+                "SphericalGrid<Radial, Elevation, Azimuth> supports up to 1024 divisions of each kind, 65536 cells");
   static constexpr int radial = Radial;
   static constexpr int elevation = Elevation;
   static constexpr int azimuth = Azimuth;
@@ -1003,7 +1062,8 @@ struct LinearRadius {
 /// the rest evenly in log r. (The published default, 0.025 m, is 1/4 of a support radius of 0.1 m.)
 template <int Numerator = 1, int Denominator = 4>
 struct LogRadius {
-  static_assert(0 < Numerator && Numerator < Denominator, "LogRadius<N, D> supports ratios 0 < N / D < 1");
+  static_assert(0 < Numerator && 100LL * Numerator <= 99LL * Denominator,
+                "LogRadius<N, D> supports ratios 0 < N / D <= 0.99");
   template <int Shells>
   [[nodiscard]] static simd::F32 position(simd::F32 u) noexcept {
     const float log_of_ratio = math::log(static_cast<float>(Numerator) / static_cast<float>(Denominator));
@@ -1025,6 +1085,28 @@ struct LogRadius {
 // A rule has two steps. split() takes a position along one axis, in cells, and finds the cell it lies in and the nearer
 // neighbouring cell, its partner, with the share of each. combine() makes a list of votes from the shares of all axes:
 // axis 0 radius, 1 elevation, 2 azimuth, and 3 the histogram's signal where the part has one.
+
+// shortshot/unroll.hpp: loops of a length known while compiling, written out. Compilers do not unroll them at -O2, and
+// what an unrolled body keeps in registers a loop keeps in memory.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+template <class Function, int... I>
+inline void unroll(Function f, std::integer_sequence<int, I...>) noexcept {
+  (f(std::integral_constant<int, I>{}), ...);
+}
+
+/// f(0), f(1), ... f(Count - 1), each with its index as a compile-time constant.
+template <int Count, class Function>
+inline void unroll(Function f) noexcept {
+  unroll(f, std::make_integer_sequence<int, Count>{});
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -1075,13 +1157,13 @@ template <class Axis>
   if constexpr (Axis::cells == 1) return {index, all(0.0f), weight, all(1.0f) < all(0.0f)};
 
   const simd::Mask upper = fraction > all(0.5f);
-  const simd::F32 step = select(upper, all(stride), all(-stride));
-  const simd::F32 neighbor = cell + select(upper, all(1.0f), all(-1.0f));
-  const simd::Mask below = neighbor < all(0.0f);
-  const simd::Mask above = neighbor > all(last);
+  const simd::F32 step = simd::negate(upper, all(-stride));
+  const simd::F32 neighbor = cell + simd::negate(upper, all(-1.0f));
   if constexpr (Axis::end == Beyond::first_cell) {
-    const simd::F32 wrapped = select(below, all(last * stride), select(above, all(-last * stride), step));
-    return {index, wrapped, weight, all(0.0f) < all(1.0f)};
+    const simd::F32 around = all(static_cast<float>(Axis::cells) * stride);
+    const simd::F32 up = keep(all(0.0f) > neighbor, around);
+    const simd::F32 down = keep(neighbor > all(last), around);
+    return {index, (step + up) - down, weight, all(0.0f) < all(1.0f)};
   }
   const simd::Mask inside = (neighbor >= all(0.0f)) & (all(last) >= neighbor);
   return {index, keep(inside, step), weight, inside};
@@ -1090,7 +1172,7 @@ template <class Axis>
 template <int Axes>
 [[nodiscard]] inline simd::F32 primary_index(const Share (&shares)[Axes]) noexcept {
   simd::F32 index = shares[0].cell;
-  for (int i = 1; i < Axes; ++i) index = index + shares[i].cell;
+  unroll<Axes - 1>([&](auto i) { index = index + shares[i + 1].cell; });
   return index;
 }
 
@@ -1117,17 +1199,17 @@ struct AdditiveVoting {
   [[nodiscard]] static Votes<Axes + 1> combine(const Share (&shares)[Axes]) noexcept {
     using simd::all;
     simd::F32 sum = shares[0].weight;
-    for (int i = 1; i < Axes; ++i) sum = sum + shares[i].weight;
+    detail::unroll<Axes - 1>([&](auto i) { sum = sum + shares[i + 1].weight; });
 
     Votes<Axes + 1> votes;
     votes.index[0] = detail::primary_index(shares);
     votes.weight[0] = sum;
-    for (int i = 0; i < Axes; ++i) {
+    detail::unroll<Axes>([&](auto i) {
       simd::F32 weight = sum + swap_share(shares[i]);
       if (FlipRadius && i == 3) weight = weight + swap_share(shares[0]);
       votes.index[i + 1] = votes.index[0] + shares[i].partner;
       votes.weight[i + 1] = keep(shares[i].has_partner, weight);
-    }
+    });
     return votes;
   }
 
@@ -1177,14 +1259,14 @@ struct MultilinearVoting {
     Votes<(1 << Axes)> votes;
     votes.index[0] = detail::primary_index(shares);
     votes.weight[0] = simd::all(1.0f);
-    for (int axis = 0; axis < Axes; ++axis) {
-      const int half = 1 << axis;
-      for (int i = 0; i < half; ++i) {
+    detail::unroll<Axes>([&](auto axis) {
+      constexpr int half = 1 << decltype(axis)::value;
+      detail::unroll<half>([&](auto i) {
         votes.index[half + i] = votes.index[i] + shares[axis].partner;
         votes.weight[half + i] = votes.weight[i] * (simd::all(1.0f) - shares[axis].weight);
         votes.weight[i] = votes.weight[i] * shares[axis].weight;
-      }
-    }
+      });
+    });
     return votes;
   }
 };
@@ -1232,6 +1314,32 @@ struct Part {
   using SignalAxis = Axis<Signal::bins, 1, Beyond::nothing>;
 };
 
+namespace detail {
+
+/// The rule by which all of a descriptor's colour parts convert colours; void if it has none.
+template <class... Signals>
+struct LabRuleOf {
+  using type = void;
+};
+template <class Signal, class... Others>
+struct LabRuleOf<Signal, Others...> {
+  using Next = typename LabRuleOf<Others...>::type;
+  template <class S, bool = S::needs_colors>
+  struct Own {
+    using type = void;
+  };
+  template <class S>
+  struct Own<S, true> {
+    using type = typename S::Rule;
+  };
+  using Mine = typename Own<Signal>::type;
+  static_assert(std::is_void<Mine>::value || std::is_void<Next>::value || std::is_same<Mine, Next>::value,
+                "Descriptor supports one colour conversion for all its parts");
+  using type = std::conditional_t<std::is_void<Mine>::value, Next, Mine>;
+};
+
+}  // namespace detail
+
 /// A descriptor: its parts one after the other, filled by one voting rule and normalised together to L2 norm 1.
 template <class VotingRule, class... Parts>
 struct Descriptor {
@@ -1244,13 +1352,14 @@ struct Descriptor {
   static_assert(size <= 65536, "Descriptor supports up to 65536 values");
 
   static constexpr bool needs_colors = (Parts::Signal::needs_colors || ...);
+  using LabRule = typename detail::LabRuleOf<typename Parts::Signal...>::type;
 
   /// First value of part `i` (of `parts` ones), and the end of the last part.
   static constexpr int parts = static_cast<int>(sizeof...(Parts));
   [[nodiscard]] static constexpr int offset(int i) noexcept {
     constexpr int sizes[] = {Parts::size...};
     int sum = 0;
-    for (int k = 0; k < i; ++k) sum += sizes[k];
+    for (int k = 0; k < i && k < parts; ++k) sum += sizes[k];
     return sum;
   }
 };
@@ -1345,7 +1454,6 @@ struct Radius {
   float value;
   float squared;
 
-  Radius() = default;
   constexpr Radius(float radius) noexcept : value(radius), squared(radius * radius) {}  // NOLINT: 0.04f is a radius
   [[nodiscard]] static constexpr Radius from_double(double radius) noexcept {
     Radius r(static_cast<float>(radius));
@@ -1724,22 +1832,26 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, int members, fl
 /// `towards_viewpoint`, if not null, is a vector (3 floats, any length) from the key point to the camera: z is turned
 /// to it and only x by vote. Every depth camera knows it, and it makes frames more repeatable; null is SHOT.
 ///
-/// Statuses: bad_radius; too_many_neighbors (more than 2^24); too_few_neighbors (fewer than five members);
-/// ambiguous_frame (two principal axes equal within float resolution: collinear or symmetric neighbourhoods). `frame`
-/// is zeroed then. On an exactly planar neighbourhood all members lie at z = 0 and the sign of z is the solver's unless
-/// a viewpoint is given. No allocation, reentrant. The result does not depend on the order of the neighbours.
+/// Statuses: bad_radius; bad_viewpoint (not finite); too_many_neighbors (more than 2^24); too_few_neighbors (fewer than
+/// five members); ambiguous_frame (two principal axes equal within float resolution: collinear or symmetric
+/// neighbourhoods). `frame` is zeroed then. On an exactly planar neighbourhood all members lie at z = 0 and the sign of
+/// z is the solver's unless a viewpoint is given. No allocation, reentrant. The result does not depend on the order of
+/// the neighbours.
 [[nodiscard]] inline Status estimate_frame(const Neighborhood& n, Radius radius, Frame& frame,
                                            const float* towards_viewpoint = nullptr) noexcept {
   frame = Frame{};
   const Status usable = check(radius);
   if (usable != Status::ok) return usable;
   if (n.size > max_neighbors) return Status::too_many_neighbors;
+  float view[3] = {};
+  for (int k = 0; k < 3 && towards_viewpoint != nullptr; ++k) view[k] = towards_viewpoint[k];
+  if (!math::is_finite(view)) return Status::bad_viewpoint;
   const detail::WeightedScatter scatter = detail::weighted_scatter(n, radius);
   if (scatter.members < min_frame_neighbors) return Status::too_few_neighbors;
 
   const detail::Eigen3 eigen = detail::decompose(scatter.matrix);
   // What float can tell apart, and what the rounding of the members to integers may have moved.
-  const float resolution = 1e-6f * eigen.values[2] + simd::root(static_cast<float>(scatter.members));
+  const float resolution = 1e-6f * eigen.values[2] + 0.5f * static_cast<float>(scatter.members);
   if (!(eigen.values[2] - eigen.values[1] > resolution && eigen.values[1] - eigen.values[0] > resolution)) {
     return Status::ambiguous_frame;
   }
@@ -1749,11 +1861,11 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, int members, fl
     frame.z[k] = eigen.vectors[0][k];
   }
   detail::orient_by_vote(n, radius, scatter.members, frame.x);
-  if (towards_viewpoint == nullptr) {
+  const float towards = dot(view, frame.z);
+  if (towards == 0.0f) {  // no viewpoint, or one that does not tell
     detail::orient_by_vote(n, radius, scatter.members, frame.z);
-  } else {
-    const float view[3] = {towards_viewpoint[0], towards_viewpoint[1], towards_viewpoint[2]};
-    if (dot(view, frame.z) < 0.0f) detail::negate(frame.z);
+  } else if (towards < 0.0f) {
+    detail::negate(frame.z);
   }
   frame.y[0] = frame.z[1] * frame.x[2] - frame.z[2] * frame.x[1];
   frame.y[1] = frame.z[2] * frame.x[0] - frame.z[0] * frame.x[2];
@@ -1771,8 +1883,10 @@ inline namespace SHORTSHOT_ISA {
 /// every neighbour's bytes when it is asked: no memory per point.
 template <class LabRule>
 struct RgbColors {
+  using Rule = LabRule;
   CloudView cloud;
   Lab reference;
+  [[nodiscard]] Status status() const noexcept { return has_colors(cloud) ? Status::ok : Status::missing_colors; }
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return to_lab<LabRule>(color(cloud, index)); }
 };
 
@@ -1780,11 +1894,14 @@ struct RgbColors {
 struct LabColors {
   const Lab* lab;  ///< one per point of the cloud, borrowed
   Lab reference;
+  [[nodiscard]] Status status() const noexcept { return lab != nullptr ? Status::ok : Status::missing_colors; }
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return lab[index]; }
 };
 
 /// For descriptors without colour.
-struct NoColors {};
+struct NoColors {
+  [[nodiscard]] static Status status() noexcept { return Status::ok; }
+};
 
 /// Convert all colours of a cloud into `lab` (cloud.size elements of the caller's). Statuses: empty_cloud,
 /// bad_view, missing_colors.
@@ -1844,9 +1961,24 @@ inline void locate(const Neighborhood& n, const Frame& frame, Radius radius, Chu
 template <class Colors>
 inline void measure_colors(const Neighborhood& n, const Colors& colors, const Chunk& chunk,
                            float (&signal)[chunk_size]) noexcept {
-  std::uint32_t i = 0;
-  for (; i < chunk.size; ++i) signal[i] = color_distance(colors(n.index[chunk.first + i]), colors.reference);
-  for (; i % simd::lanes != 0; ++i) signal[i] = 0.0f;  // the last register
+  float lightness[chunk_size];
+  float green_red[chunk_size];
+  float blue_yellow[chunk_size];
+  for (std::uint32_t i = 0; i < chunk.size; ++i) {
+    const Lab color = colors(n.index[chunk.first + i]);
+    lightness[i] = color.L;
+    green_red[i] = color.a;
+    blue_yellow[i] = color.b;
+  }
+  for (std::uint32_t i = chunk.size; i % simd::lanes != 0; ++i) {  // the last register
+    lightness[i] = green_red[i] = blue_yellow[i] = 0.0f;
+  }
+  const Lab& key = colors.reference;
+  const LabLanes reference{simd::all(key.L), simd::all(key.a), simd::all(key.b)};
+  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
+    const LabLanes color{simd::load(lightness + i), simd::load(green_red + i), simd::load(blue_yellow + i)};
+    simd::store(signal + i, color_distance(color, reference));
+  }
 }
 
 /// The votes of a chunk, lane-wise: `Count` arrays of positions in the part and fixed-point weights.
@@ -1881,10 +2013,10 @@ inline void vote(const Chunk& chunk, const float (&signal)[chunk_size],
     }
     const Votes<count> votes = Voting::combine(shares);
     const simd::F32 scale = simd::load(chunk.scale + i);
-    for (int k = 0; k < count; ++k) {
+    unroll<count>([&](auto k) {
       simd::store(out.index[k] + i, truncate_to_int(votes.index[k]));
       simd::store(out.weight[k] + i, round_to_int(votes.weight[k] * scale));
-    }
+    });
   }
 }
 
@@ -1900,7 +2032,7 @@ inline void add_bits(float* value, std::int32_t weight) noexcept {
 template <int Count>
 inline void scatter(const ChunkVotes<Count>& votes, std::uint32_t size, float* part) noexcept {
   for (std::uint32_t i = 0; i < size; ++i) {
-    for (int k = 0; k < Count; ++k) add_bits(part + votes.index[k][i], votes.weight[k][i]);
+    unroll<Count>([&](auto k) { add_bits(part + votes.index[k][i], votes.weight[k][i]); });
   }
 }
 
@@ -1922,21 +2054,43 @@ inline void accumulate_all(Descriptor<Voting, Parts...>, const Neighborhood& n, 
   (accumulate<Voting, Parts>(n, colors, chunk, out + D::offset(part++)), ...);
 }
 
-/// Integers to floats of L2 norm 1. Eight partial sums of squares, so that any number of lanes adds in the same order.
-[[nodiscard]] inline Status normalize(float* values, int size) noexcept {
-  float partial[8] = {};
-  for (int i = 0; i < size; ++i) {
-    std::int32_t bits = 0;
-    std::memcpy(&bits, values + i, sizeof bits);
-    values[i] = static_cast<float>(bits);
-    partial[i % 8] += values[i] * values[i];
-  }
-  const float squared_norm =
-      ((partial[0] + partial[1]) + (partial[2] + partial[3])) + ((partial[4] + partial[5]) + (partial[6] + partial[7]));
+/// Integers to floats of L2 norm 1. Squares are added up in eight places, whatever the number of lanes: the same order,
+/// and so the same bits, from all.
+template <int Size>
+[[nodiscard]] inline Status normalize(float* values) noexcept {
+  constexpr int lanes = static_cast<int>(simd::lanes);
+  simd::F32 squares[8 / lanes] = {};
+  const auto convert_eight = [&](float* eight) {
+    unroll<8 / lanes>([&](auto i) {
+      const simd::F32 value = to_float(bits_of(simd::load(eight + i * lanes)));
+      simd::store(eight + i * lanes, value);
+      squares[i] = squares[i] + value * value;
+    });
+  };
+  constexpr int whole = Size / 8 * 8;
+  for (int i = 0; i < whole; i += 8) convert_eight(values + i);
+  float rest[8] = {};
+  std::memcpy(rest, values + whole, (Size - whole) * sizeof(float));
+  convert_eight(rest);
+
+  float s[8];
+  unroll<8 / lanes>([&](auto i) { simd::store(s + i * lanes, squares[i]); });
+  const float squared_norm = ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
   if (!(squared_norm > 0.0f)) return Status::too_few_neighbors;
   const float inverse = 1.0f / simd::root(squared_norm);
-  for (int i = 0; i < size; ++i) values[i] *= inverse;
+  for (int i = 0; i < whole; i += lanes) simd::store(values + i, simd::load(values + i) * simd::all(inverse));
+  for (int i = whole; i < Size; ++i) values[i] = rest[i - whole] * inverse;
   return Status::ok;
+}
+
+/// Where a colour source names the rule it converts by, it must be the descriptor's.
+template <class D, class Colors>
+constexpr bool has_rule_of(const typename Colors::Rule*) noexcept {
+  return !D::needs_colors || std::is_same<typename Colors::Rule, typename D::LabRule>::value;
+}
+template <class D, class Colors>
+constexpr bool has_rule_of(...) noexcept {
+  return true;
 }
 
 }  // namespace detail
@@ -1944,22 +2098,24 @@ inline void accumulate_all(Descriptor<Voting, Parts...>, const Neighborhood& n, 
 /// Describe a gathered neighbourhood in a frame: the kernel of every descriptor.
 ///
 /// `n`       neighbours of one key point, gathered with at least `radius` (farther ones are left out)
-/// `colors`  a source of Lab by index (RgbColors, LabColors, your own), or NoColors if D needs none
+/// `colors`  a source of Lab by index (RgbColors, LabColors, your own like them), or NoColors if D needs none
 /// `frame`   an orthonormal frame: estimate_frame(), or one you know
 /// `out`     D::size floats: the parts of D in order, L2 norm 1
 ///
 /// Source: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code (voting.hpp).
-/// There is no minimum of neighbours but one. Statuses: bad_radius, bad_frame, too_many_neighbors (over 2^24),
-/// too_few_neighbors (none but the key point and its copies); `out` is all zeros then, and never NaN. No allocation;
-/// reentrant; 3 to 10 KB of stack. The result does not depend on the order of the neighbours.
+/// There is no minimum of neighbours but one. Statuses: bad_radius, bad_frame, missing_colors, too_many_neighbors (over
+/// 2^24), too_few_neighbors (none but the key point and its copies); `out` is all zeros then, and never NaN. No
+/// allocation; reentrant; 3 to 10 KB of stack. The result does not depend on the order of the neighbours.
 template <class D, class Colors>
 [[nodiscard]] inline Status describe(const Neighborhood& n, const Colors& colors, const Frame& frame, Radius radius,
                                      float* out) noexcept {
   std::memset(out, 0, D::size_bytes);
   static_assert(!D::needs_colors || !std::is_same<Colors, NoColors>::value,
                 "D has a colour part: describe() supports RgbColors, LabColors or another source of Lab by index");
+  static_assert(detail::has_rule_of<D, Colors>(nullptr), "describe() supports colours converted by D's own rule");
   Status status = check(radius);
   if (status == Status::ok) status = check(frame);
+  if (status == Status::ok && D::needs_colors) status = colors.status();
   if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
   if (status != Status::ok) return status;
 
@@ -1970,7 +2126,7 @@ template <class D, class Colors>
     detail::locate(n, frame, radius, chunk);
     detail::accumulate_all(D{}, n, colors, chunk, out);
   }
-  return detail::normalize(out, D::size);
+  return detail::normalize<D::size>(out);
 }
 
 }  // namespace SHORTSHOT_ISA
@@ -1997,7 +2153,6 @@ struct Support {
   Radius frame_radius;     ///< of the local reference frame; may be smaller or larger
   const Point* viewpoint;  ///< where the camera is, in the cloud's coordinates: turns the frames' z; null: by vote
 
-  Support() = default;
   constexpr Support(Radius r) noexcept : radius(r), frame_radius(r), viewpoint(nullptr) {}  // NOLINT: see above
   constexpr Support(float r) noexcept : Support(Radius(r)) {}                               // NOLINT: see above
 };
@@ -2007,8 +2162,10 @@ template <class D, class Search>
 [[nodiscard]] inline Status check(const CloudView& cloud, const Search& search, const Support& support) noexcept {
   Status status = check(cloud);
   if (status == Status::ok) status = search.status();
+  if (status == Status::ok && search.cloud_size() != cloud.size) status = Status::bad_view;
   if (status == Status::ok) status = check(support.radius);
   if (status == Status::ok) status = check(support.frame_radius);
+  if (status == Status::ok && support.viewpoint && !is_finite(*support.viewpoint)) status = Status::bad_viewpoint;
   if (status == Status::ok && D::needs_colors && !has_colors(cloud)) status = Status::missing_colors;
   return status;
 }
@@ -2035,27 +2192,11 @@ template <class D, class Colors>
   return status == Status::ok ? describe<D>(n, colors, frame, support.radius, out) : status;
 }
 
-/// The rule by which a descriptor's colour part converts colours.
-template <class D>
-struct LabRuleOf;
-template <class Voting, class... Parts>
-struct LabRuleOf<Descriptor<Voting, Parts...>> {
-  template <class Signal, class... Others>
-  static auto find(Signal, Others...) noexcept {
-    if constexpr (Signal::needs_colors) {
-      return typename Signal::Rule{};
-    } else if constexpr (sizeof...(Others) > 0) {
-      return find(Others{}...);
-    }
-  }
-  using type = decltype(find(typename Parts::Signal{}...));
-};
-
 /// The colour source that reads a cloud's own bytes.
 template <class D>
 [[nodiscard]] inline auto rgb_colors(const CloudView& cloud, const Rgb& reference) noexcept {
   if constexpr (D::needs_colors) {
-    using Rule = typename LabRuleOf<D>::type;
+    using Rule = typename D::LabRule;
     return RgbColors<Rule>{cloud, to_lab<Rule>(reference)};
   } else {
     return NoColors{};
@@ -2071,8 +2212,9 @@ template <class D>
 /// `workspace`  a Workspace<MaxNeighbors>; all the memory there is
 /// `out`        D::size floats: the descriptor, L2 norm 1, or all zeros if the status is not ok
 ///
-/// Statuses: empty_cloud, bad_view, bad_radius, missing_colors, invalid_keypoint, too_many_neighbors (the workspace is
-/// too small: Neighborhood::found of a gather() says what it takes), too_few_neighbors, ambiguous_frame.
+/// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint,
+/// missing_colors, invalid_keypoint, too_many_neighbors (the workspace is too small: Neighborhood::found of a gather()
+/// says what it takes), too_few_neighbors, ambiguous_frame; and what the search's build() returned, if not ok.
 /// No allocation; reentrant, one workspace per thread.
 template <class D, class Search, std::size_t MaxNeighbors>
 [[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
@@ -2088,7 +2230,22 @@ template <class D, class Search, std::size_t MaxNeighbors>
   return detail::describe_gathered<D>(n, detail::rgb_colors<D>(cloud, key.color), key.position, support, out);
 }
 
-/// The same for the point with an index; bad_keypoint if there is none.
+/// The same in a frame that the caller knows; bad_frame if it is not orthonormal.
+template <class D, class Search, std::size_t MaxNeighbors>
+[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
+                                        const Frame& frame, Radius radius, Workspace<MaxNeighbors>& workspace,
+                                        float* out) noexcept {
+  std::memset(out, 0, D::size_bytes);
+  Status status = check<D>(cloud, search, radius);
+  if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
+  if (status != Status::ok) return status;
+  Neighborhood n = neighborhood_in(workspace);
+  status = search.gather(key.position, radius, n);
+  if (status != Status::ok) return status;
+  return describe<D>(n, detail::rgb_colors<D>(cloud, key.color), frame, radius, out);
+}
+
+/// The same for the point with an index, in SHOT's own frame; bad_keypoint if there is none.
 template <class D, class Search, std::size_t MaxNeighbors>
 [[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, std::size_t index,
                                         const Support& support, Workspace<MaxNeighbors>& workspace,
@@ -2109,16 +2266,19 @@ template <class D, class Search, std::size_t MaxNeighbors>
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
-/// A search is anything with two functions:
+/// A search is anything with three functions:
 /// * `Status gather(Point center, Radius radius, Neighborhood& out) const noexcept` offers each valid point within the
 ///   radius to `out` exactly once, in any order, by the index it has in the cloud. It returns status() if that is
 ///   not ok, and too_many_neighbors if `out` is too small, with the number in `out.found`. It allocates nothing, and
 ///   several threads may call it at once;
-/// * `Status status() const noexcept` says why it cannot be asked, if so: what its build() returned.
+/// * `Status status() const noexcept` says why it cannot be asked, if so: what its build() returned;
+/// * `std::size_t cloud_size() const noexcept` is the size of its cloud, so that it is not asked about another one.
 struct BruteSearch {
   CloudView cloud;
 
   [[nodiscard]] Status status() const noexcept { return check(cloud); }
+
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud.size; }
 
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
     clear(out);
@@ -2148,23 +2308,17 @@ struct Extent {
   float high[3];
 };
 
-[[nodiscard]] inline float coordinate(const Point& p, int axis) noexcept {
-  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-}
-
 /// Extent of the valid points; returns how many there are.
 [[nodiscard]] inline std::size_t measure(const CloudView& cloud, Extent& extent) noexcept {
   std::size_t valid = 0;
-  for (std::size_t i = 0; i < cloud.size; ++i) {
-    const Point p = point(cloud, i);
-    if (!is_finite(p)) continue;
-    for (int axis = 0; axis < 3; ++axis) {
+  for_each_valid(cloud, [&](std::size_t, const Point& p) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       const float v = coordinate(p, axis);
       if (valid == 0 || v < extent.low[axis]) extent.low[axis] = v;
       if (valid == 0 || v > extent.high[axis]) extent.high[axis] = v;
     }
     ++valid;
-  }
+  });
   return valid;
 }
 
@@ -2220,7 +2374,7 @@ struct GridBox {
 /// Cut the thinly populated ends off one axis: of 64 slices, those at either end that together hold at most 1 point in
 /// 128. Returns whether that at least halved the extent, which is when another round is worth while.
 template <class Index>
-[[nodiscard]] inline bool trim(const CloudView& cloud, std::size_t valid, int axis, Index* slices,
+[[nodiscard]] inline bool trim(const CloudView& cloud, std::size_t valid, std::size_t axis, Index* slices,
                                Extent& extent) noexcept {
   constexpr int count = 64;
   const float low = extent.low[axis];
@@ -2231,10 +2385,7 @@ template <class Index>
     const float s = (v - low) / width;
     return !(s > 0.0f) ? 0 : s < count - 1.0f ? static_cast<int>(s) : count - 1;
   };
-  for (std::size_t i = 0; i < cloud.size; ++i) {
-    const Point p = point(cloud, i);
-    if (is_finite(p)) ++slices[slice_of(coordinate(p, axis))];
-  }
+  for_each_valid(cloud, [&](std::size_t, const Point& p) { ++slices[slice_of(coordinate(p, axis))]; });
 
   int first = 0;
   int last = count - 1;
@@ -2252,7 +2403,7 @@ template <class Index>
 [[nodiscard]] inline GridBox fit_box(const CloudView& cloud, Extent extent, std::size_t valid, float cell_size,
                                      Index* scratch, std::size_t capacity) noexcept {
   GridBox box;
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     // A round divides the extent by up to 64: two dozen span all of float's range.
     for (int round = 0; round < 24 && capacity >= 64; ++round) {
       if (count_cells(extent, cell_size, capacity, box.dims)) break;
@@ -2289,10 +2440,122 @@ struct GridMemory {
 };
 
 inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// What a search reads of a grid's memory.
+template <class Index>
+struct GridContents {
+  const Index* order;
+  const Index* cell_end;
+  const float* xyz;
+};
+
+/// What a grid knows besides its memory, which is handed to it at every call: an owner of both can be copied.
+template <class Index>
+class Grid {
+ public:
+  using Memory = GridMemory<Index>;
+  using Contents = GridContents<Index>;
+
+  [[nodiscard]] Status build(const CloudView& cloud, float cell_size, const Memory& memory) noexcept {
+    *this = Grid{};
+    cloud_ = cloud;
+    status_ = index_points(cell_size, memory);
+    return status_;
+  }
+
+  [[nodiscard]] Status status() const noexcept {
+    return points_ == 0 && status_ == Status::ok ? Status::empty_cloud : status_;
+  }
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_.size; }
+  [[nodiscard]] std::size_t size() const noexcept { return points_; }
+
+  [[nodiscard]] Status gather(const Contents& contents, const Point& center, Radius radius,
+                              Neighborhood& out) const noexcept {
+    clear(out);
+    if (status() != Status::ok) return status();
+    // The margin covers the rounding of d2: a point inside by d2 is never outside by one coordinate.
+    const float reach = radius.value * 1.000001f;
+    const CellRange x = box_.range(0, center.x, reach);
+    const CellRange y = box_.range(1, center.y, reach);
+    const CellRange z = box_.range(2, center.z, reach);
+    for (std::uint32_t cz = z.first; cz <= z.last; ++cz) {
+      for (std::uint32_t cy = y.first; cy <= y.last; ++cy) {
+        const std::size_t row = box_.row(cy, cz);
+        offer_run(contents, begin_of(contents, row + x.first), contents.cell_end[row + x.last], center, radius, out);
+      }
+    }
+    return outcome(out);
+  }
+
+ private:
+  [[nodiscard]] Status index_points(float cell_size, const Memory& memory) noexcept {
+    const Status usable = check(cloud_);
+    if (usable != Status::ok) return usable;
+    if (check(Radius(cell_size)) != Status::ok) return Status::bad_radius;
+    if (memory.cell_capacity == 0) return Status::out_of_memory;
+
+    Extent extent;
+    const std::size_t valid = measure(cloud_, extent);
+    if (valid == 0) return Status::empty_cloud;
+    constexpr std::size_t most = static_cast<Index>(~Index{0});
+    if (valid > memory.point_capacity || valid > most || cloud_.size > most) return Status::out_of_memory;
+
+    box_ = fit_box(cloud_, extent, valid, cell_size, memory.cell_end, memory.cell_capacity);
+    points_ = valid;
+    sort(memory);
+    return Status::ok;
+  }
+
+  /// cell_end[c] is where cell c ends in `order`; it begins where the cell before it ends.
+  [[nodiscard]] static std::size_t begin_of(const Contents& contents, std::size_t cell) noexcept {
+    return cell == 0 ? 0 : contents.cell_end[cell - 1];
+  }
+
+  void offer_run(const Contents& contents, std::size_t begin, std::size_t end, const Point& center, Radius radius,
+                 Neighborhood& out) const noexcept {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t index = contents.order[i];
+      const Point p = contents.xyz == nullptr
+                          ? point(cloud_, index)
+                          : Point{contents.xyz[3 * i], contents.xyz[3 * i + 1], contents.xyz[3 * i + 2]};
+      offer(out, p, index, center, radius.squared);
+    }
+  }
+
+  /// Counting sort: count per cell, turn counts into ends of the cells before, and let each placed point move its
+  /// cell's end forward to where it belongs.
+  void sort(const Memory& memory) noexcept {
+    const std::size_t cells = box_.cells();
+    for (std::size_t c = 0; c < cells; ++c) memory.cell_end[c] = 0;
+    for_each_valid(cloud_, [&](std::size_t, const Point& p) { ++memory.cell_end[box_.cell_of(p)]; });
+    Index begin = 0;
+    for (std::size_t c = 0; c < cells; ++c) {
+      const Index count = memory.cell_end[c];
+      memory.cell_end[c] = begin;
+      begin = static_cast<Index>(begin + count);
+    }
+    for_each_valid(cloud_, [&](std::size_t index, const Point& p) {
+      const std::size_t place = memory.cell_end[box_.cell_of(p)]++;
+      memory.order[place] = static_cast<Index>(index);
+      if (memory.xyz == nullptr) return;
+      memory.xyz[3 * place] = p.x;
+      memory.xyz[3 * place + 1] = p.y;
+      memory.xyz[3 * place + 2] = p.z;
+    });
+  }
+
+  CloudView cloud_;
+  GridBox box_;
+  std::size_t points_;
+  Status status_;
+};
+
+}  // namespace detail
 
 /// The index itself, in memory that somebody else owns; a search (see brute.hpp for the concept). Trivial type: build()
 /// before the first gather(). The cloud and the memory must outlive it. `Index` may be uint16_t for clouds of up to
-/// 65,536 points, invalid ones included.
+/// 65,535 points, invalid ones included.
 template <class Index = std::uint32_t>
 class GridIndex {
   static_assert(std::is_same<Index, std::uint16_t>::value || std::is_same<Index, std::uint32_t>::value,
@@ -2307,108 +2570,24 @@ class GridIndex {
   /// Statuses: empty_cloud, bad_view, bad_radius (the cell size), out_of_memory (more valid points than
   /// point_capacity, points with indices beyond Index, or no cell). O(points + cells); allocates nothing.
   [[nodiscard]] Status build(const CloudView& cloud, float cell_size, const GridMemory<Index>& memory) noexcept {
-    *this = GridIndex{};
-    cloud_ = cloud;
     memory_ = memory;
-    status_ = index_points(cell_size);
-    return status_;
+    return grid_.build(cloud, cell_size, memory);
   }
 
   /// What the last build() returned; empty_cloud before the first one (in memory that started as zeros).
-  [[nodiscard]] Status status() const noexcept {
-    return points_ == 0 && status_ == Status::ok ? Status::empty_cloud : status_;
-  }
+  [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
   /// Number of points in the index: the cloud's valid ones.
-  [[nodiscard]] std::size_t size() const noexcept { return points_; }
+  [[nodiscard]] std::size_t size() const noexcept { return grid_.size(); }
 
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
-    clear(out);
-    if (status() != Status::ok) return status();
-    // The margin covers the rounding of d2: a point inside by d2 is never outside by one coordinate.
-    const float reach = radius.value * 1.000001f;
-    const detail::CellRange x = box_.range(0, center.x, reach);
-    const detail::CellRange y = box_.range(1, center.y, reach);
-    const detail::CellRange z = box_.range(2, center.z, reach);
-    for (std::uint32_t cz = z.first; cz <= z.last; ++cz) {
-      for (std::uint32_t cy = y.first; cy <= y.last; ++cy) {
-        const std::size_t row = box_.row(cy, cz);
-        offer_run(begin_of(row + x.first), memory_.cell_end[row + x.last], center, radius, out);
-      }
-    }
-    return outcome(out);
+    return grid_.gather({memory_.order, memory_.cell_end, memory_.xyz}, center, radius, out);
   }
 
  private:
-  [[nodiscard]] Status index_points(float cell_size) noexcept {
-    const Status usable = check(cloud_);
-    if (usable != Status::ok) return usable;
-    if (check(Radius(cell_size)) != Status::ok) return Status::bad_radius;
-    if (memory_.cell_capacity == 0) return Status::out_of_memory;
-
-    detail::Extent extent;
-    const std::size_t valid = detail::measure(cloud_, extent);
-    if (valid == 0) return Status::empty_cloud;
-    constexpr std::size_t most = static_cast<Index>(~Index{0});
-    if (valid > memory_.point_capacity || valid > most || cloud_.size - 1 > most) return Status::out_of_memory;
-
-    box_ = detail::fit_box(cloud_, extent, valid, cell_size, memory_.cell_end, memory_.cell_capacity);
-    points_ = valid;
-    sort();
-    return Status::ok;
-  }
-
-  /// cell_end[c] is where cell c ends in `order`; it begins where the cell before it ends.
-  [[nodiscard]] std::size_t begin_of(std::size_t cell) const noexcept {
-    return cell == 0 ? 0 : memory_.cell_end[cell - 1];
-  }
-
-  void offer_run(std::size_t begin, std::size_t end, const Point& center, Radius radius,
-                 Neighborhood& out) const noexcept {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t index = memory_.order[i];
-      const Point p = memory_.xyz == nullptr
-                          ? point(cloud_, index)
-                          : Point{memory_.xyz[3 * i], memory_.xyz[3 * i + 1], memory_.xyz[3 * i + 2]};
-      offer(out, p, index, center, radius.squared);
-    }
-  }
-
-  /// Counting sort: count per cell, turn counts into ends of the cells before, and let each placed point move its
-  /// cell's end forward to where it belongs.
-  void sort() noexcept {
-    const std::size_t cells = box_.cells();
-    for (std::size_t c = 0; c < cells; ++c) memory_.cell_end[c] = 0;
-    for_each_valid([this](std::size_t, std::size_t cell, const Point&) { ++memory_.cell_end[cell]; });
-    Index begin = 0;
-    for (std::size_t c = 0; c < cells; ++c) {
-      const Index count = memory_.cell_end[c];
-      memory_.cell_end[c] = begin;
-      begin = static_cast<Index>(begin + count);
-    }
-    for_each_valid([this](std::size_t index, std::size_t cell, const Point& p) {
-      const std::size_t place = memory_.cell_end[cell]++;
-      memory_.order[place] = static_cast<Index>(index);
-      if (memory_.xyz == nullptr) return;
-      memory_.xyz[3 * place] = p.x;
-      memory_.xyz[3 * place + 1] = p.y;
-      memory_.xyz[3 * place + 2] = p.z;
-    });
-  }
-
-  template <class Function>
-  void for_each_valid(Function f) const noexcept {
-    for (std::size_t i = 0; i < cloud_.size; ++i) {
-      const Point p = point(cloud_, i);
-      if (is_finite(p)) f(i, box_.cell_of(p), p);
-    }
-  }
-
-  CloudView cloud_;
+  detail::Grid<Index> grid_;
   GridMemory<Index> memory_;
-  detail::GridBox box_;
-  std::size_t points_;
-  Status status_;
 };
 
 /// A GridIndex with its memory inside, for clouds of up to `MaxPoints` valid points: a static or a member, no heap.
@@ -2423,17 +2602,18 @@ class StaticGrid {
 
   /// See GridIndex::build().
   [[nodiscard]] Status build(const CloudView& cloud, float cell_size) noexcept {
-    return index_.build(cloud, cell_size, {order_, cell_end_, nullptr, MaxPoints, MaxCells});
+    return grid_.build(cloud, cell_size, {order_, cell_end_, nullptr, MaxPoints, MaxCells});
   }
 
-  [[nodiscard]] Status status() const noexcept { return index_.status(); }
+  [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
-    return index_.gather(center, radius, out);
+    return grid_.gather({order_, cell_end_, nullptr}, center, radius, out);
   }
 
  private:
-  GridIndex<Index> index_;
+  detail::Grid<Index> grid_;
   Index order_[MaxPoints];
   Index cell_end_[MaxCells];
 };
@@ -2481,6 +2661,8 @@ class OrganizedSearch {
   /// What the last build() returned; empty_cloud before the first one (in memory that started as zeros).
   [[nodiscard]] Status status() const noexcept { return cloud_.size == 0 ? Status::empty_cloud : status_; }
 
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_.size; }
+
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
@@ -2521,14 +2703,12 @@ class OrganizedSearch {
 
   /// Calls f(column, row, x / z, y / z) for each valid point.
   template <class Function>
-  void for_each_valid(Function f) const noexcept {
-    for (std::size_t i = 0; i < cloud_.size; ++i) {
-      const Point p = point(cloud_, i);
-      if (!is_finite(p)) continue;
+  void for_each_pixel(Function f) const noexcept {
+    for_each_valid(cloud_, [&](std::size_t i, const Point& p) {
       const std::size_t row = i / cloud_.width;
       const std::size_t column = i % cloud_.width;
       f(static_cast<float>(column), static_cast<float>(row), p.x / p.z, p.y / p.z);
-    }
+    });
   }
 
   [[nodiscard]] Status fit() noexcept {
@@ -2540,28 +2720,26 @@ class OrganizedSearch {
     }
     bool front = false;
     bool behind = false;
-    for (std::size_t i = 0; i < cloud_.size; ++i) {
-      const Point p = point(cloud_, i);
-      if (!is_finite(p)) continue;
+    for_each_valid(cloud_, [&](std::size_t, const Point& p) {
       front = front || p.z > 0.0f;
       behind = behind || !(p.z > 0.0f);
-    }
+    });
     if (!front && !behind) return Status::empty_cloud;
     if (front && behind) return Status::not_organized;
 
     Line columns{};
     Line rows{};
-    for_each_valid([&](float u, float v, float x, float y) {
+    for_each_pixel([&](float u, float v, float x, float y) {
       columns.add_to_mean(x, u);
       rows.add_to_mean(y, v);
     });
-    for_each_valid([&](float u, float v, float x, float y) {
+    for_each_pixel([&](float u, float v, float x, float y) {
       columns.add_to_slope(x, u);
       rows.add_to_slope(y, v);
     });
     columns_ = columns.projection();
     rows_ = rows.projection();
-    for_each_valid([&](float u, float v, float x, float y) {
+    for_each_pixel([&](float u, float v, float x, float y) {
       widen(columns_, x, u);
       widen(rows_, y, v);
     });
@@ -2601,6 +2779,45 @@ class OrganizedSearch {
   detail::Projection columns_;
   detail::Projection rows_;
 };
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/self_check.hpp: does the build at hand keep the promise of the same bits everywhere?
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// True if this translation unit's arithmetic rounds every operation by itself, as the same bits on every machine need.
+/// False where the compiler fuses a * b + c into one rounding (wherever the CPU can, GCC's default: compile with
+/// -ffp-contract=off), or regroups sums and ignores NaN (-ffast-math, which the library does not support). Descriptors
+/// are then still descriptors, but may differ in their last bits from those of other builds; under -ffast-math, NaN
+/// points may be taken for neighbours. All of a program's translation units that include the library need the flag.
+/// No allocation, reentrant.
+[[nodiscard]] inline bool self_check() noexcept {
+  // Volatile: what is computed while compiling says nothing about the program.
+  volatile float read_one_ulp_above = 1.00024414f;    // 1 + 2^-12: its square needs 25 bits
+  volatile float read_square_in_float = 1.00048828f;  // 1 + 2^-11
+  volatile float read_large = 12582912.0f;            // 1.5 * 2^23
+  volatile float read_small = 0.25f;
+  const simd::F32 a = simd::all(read_one_ulp_above);
+  const simd::F32 square = simd::all(read_square_in_float);
+  const simd::F32 large = simd::all(read_large);
+  const simd::F32 small = simd::all(read_small);
+  const float scalar_a = read_one_ulp_above;
+  const float scalar_large = read_large;
+
+  const bool unfused_lanes = !(simd::largest(simd::abs(a * a - square)) > 0.0f);
+  const bool unfused_scalar = scalar_a * scalar_a - read_square_in_float == 0.0f;
+  const bool ungrouped_lanes = !(simd::largest((small + large) - large) > 0.0f);
+  const bool ungrouped_scalar = (read_small + scalar_large) - scalar_large == 0.0f;
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+  const bool knows_nan = false;
+#else
+  const bool knows_nan = true;
+#endif
+  return unfused_lanes && unfused_scalar && ungrouped_lanes && ungrouped_scalar && knows_nan;
+}
 
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
@@ -2661,8 +2878,10 @@ struct Features {
     return values.data() + row * static_cast<std::size_t>(D::size);
   }
 
-  std::vector<Lab> lab;                              ///< scratch: the cloud's colours
-  std::vector<detail::GrowingWorkspace> workspaces;  ///< scratch: one per thread
+  struct {
+    std::vector<Lab> lab;                              // the cloud's colours
+    std::vector<detail::GrowingWorkspace> workspaces;  // one per thread
+  } scratch;                                           ///< extract()'s own; nothing to read there
 };
 
 namespace detail {
@@ -2687,27 +2906,33 @@ void extract_one(const Search& search, const KeyPoint& key, const Support& suppo
   out.neighbors[row] = n.found;
   if (status != Status::ok) return;
   if constexpr (D::needs_colors) {
-    const LabColors colors{out.lab.data(), to_lab<typename LabRuleOf<D>::type>(key.color)};
+    const LabColors colors{out.scratch.lab.data(), to_lab<typename D::LabRule>(key.color)};
     status = describe_gathered<D>(n, colors, key.position, support, values);
   } else {
     status = describe_gathered<D>(n, NoColors{}, key.position, support, values);
   }
 }
 
+/// Key points that a thread takes at a time.
+inline constexpr std::size_t block_size = 16;
+
 /// Calls work(thread, begin, end) for blocks of [0, count), on `threads` threads of which the caller's is one.
 template <class Work>
 void for_blocks(std::size_t count, std::size_t threads, const Work& work) {
-  constexpr std::size_t block = 16;
   std::atomic<std::size_t> next{0};
   const auto run = [&](std::size_t thread) {
-    for (std::size_t begin = next.fetch_add(block); begin < count; begin = next.fetch_add(block)) {
-      work(thread, begin, std::min(begin + block, count));
+    for (std::size_t begin = next.fetch_add(block_size); begin < count; begin = next.fetch_add(block_size)) {
+      work(thread, begin, std::min(begin + block_size, count));
     }
   };
-  std::vector<std::thread> others;
+  struct Threads : std::vector<std::thread> {
+    ~Threads() {  // also when one more thread cannot be started: those that run finish the work
+      for (std::thread& thread : *this) thread.join();
+    }
+  } others;
+  others.reserve(threads);
   for (std::size_t t = 1; t < threads; ++t) others.emplace_back(run, t);
   run(0);
-  for (std::thread& thread : others) thread.join();
 }
 
 /// `key_at(i)` gives key point i, or nothing for one outside the cloud.
@@ -2720,17 +2945,18 @@ template <class D, class Search, class KeyAt>
   out.status.assign(count, usable);
   if (usable != Status::ok) return usable;
   if constexpr (D::needs_colors) {
-    out.lab.resize(cloud.size);
-    const Status converted = convert_colors<typename LabRuleOf<D>::type>(cloud, out.lab.data());
+    out.scratch.lab.resize(cloud.size);
+    const Status converted = convert_colors<typename D::LabRule>(cloud, out.scratch.lab.data());
     if (converted != Status::ok) return converted;
   }
-  const std::size_t workers = std::max<std::size_t>(1, std::min<std::size_t>(threads, count));
-  if (out.workspaces.size() < workers) out.workspaces.resize(workers);
+  const std::size_t blocks = (count + block_size - 1) / block_size;
+  const std::size_t workers = std::max<std::size_t>(1, std::min<std::size_t>(threads, blocks));
+  if (out.scratch.workspaces.size() < workers) out.scratch.workspaces.resize(workers);
   for_blocks(count, workers, [&](std::size_t thread, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       KeyPoint key{};
       if (key_at(row, key)) {
-        extract_one(search, key, support, out.workspaces[thread], out, row);
+        extract_one(search, key, support, out.scratch.workspaces[thread], out, row);
       } else {
         out.status[row] = Status::bad_keypoint;
       }
@@ -2741,22 +2967,24 @@ template <class D, class Search, class KeyAt>
 
 }  // namespace detail
 
-/// Describe many key points of a cloud, given by their indices.
+/// Describe many key points of a cloud, given by their indices (of any integer type; pcl::Indices, too).
 ///
 /// `search`   any search over this cloud (GridSearch, NanoflannSearch, ...)
 /// `support`  radii and viewpoint; a plain float is the radius in metres
 /// `out`      one row and one Status per key point; a key point that cannot be described spoils no other
 /// `threads`  how many threads share the work; the result is the same, bit for bit, for any number
 ///
-/// Returns ok if key points could be looked at at all, else why not: empty_cloud, bad_view, bad_radius, missing_colors
-/// (every row then has that status). Allocates: 12 bytes a point for colours, 20 a neighbour and thread, and the rows.
+/// Returns ok if key points could be looked at at all, else why not, and every row has that status: empty_cloud,
+/// bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint, missing_colors, or what the
+/// search's build() returned. Allocates: 12 bytes a point for colours, 20 a neighbour and thread, and the rows.
 /// May throw what std::vector and std::thread throw (on a thread of its own that ends the program).
-template <class D, class Search>
-[[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<std::uint32_t>& keypoints,
+template <class D, class Search, class Index, class = std::enable_if_t<std::is_integral<Index>::value>>
+[[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Index>& keypoints,
                              const Support& support, Features<D>& out, unsigned threads = 1) {
   const auto key_at = [&](std::size_t row, KeyPoint& key) {
-    if (keypoints[row] >= cloud.size) return false;
-    key = keypoint(cloud, keypoints[row]);
+    const auto index = static_cast<std::size_t>(keypoints[row]);  // a negative one becomes far too large
+    if (index >= cloud.size) return false;
+    key = keypoint(cloud, index);
     return true;
   };
   return detail::extract_all(cloud, search, keypoints.size(), key_at, support, out, threads);
@@ -2794,7 +3022,7 @@ inline namespace SHORTSHOT_ISA {
   if (usable != Status::ok) return usable;
   if (!math::is_finite(leaf) || !(leaf > 0.0f)) return Status::bad_leaf;
 
-  // Voxel numbers stay floats: whole numbers that no extent can overflow.
+  // Voxel numbers stay floats: whole numbers, exact up to 2^24 voxels from the origin, as the coordinates are.
   struct Candidate {
     float voxel[3];
     float d2;  // to the voxel's centre, in voxels
@@ -2835,7 +3063,7 @@ inline namespace SHORTSHOT_ISA {
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
-/// A GridIndex that owns its memory: 16 bytes a point and 4 a cell, with at most four cells a point (and 4,096)
+/// A fixed-radius grid that owns its memory: 16 bytes a point and 4 a cell, with at most four cells a point (and 4,096)
 /// whatever the cloud's extent. A search (see brute.hpp); the cloud must outlive it. build() again for the next frame:
 /// its memory is reused. Queries are thread-safe.
 class GridSearch {
@@ -2844,9 +3072,6 @@ class GridSearch {
 
   /// Sorts the cloud into cells of `radius`. If that fails status() says why, and so do extract() and describe_at().
   GridSearch(const CloudView& cloud, float radius) { static_cast<void>(build(cloud, radius)); }
-
-  GridSearch(const GridSearch&) = delete;  // the index points into this object's own memory
-  GridSearch& operator=(const GridSearch&) = delete;
 
   /// See GridIndex::build(); may throw std::bad_alloc.
   [[nodiscard]] Status build(const CloudView& cloud, float radius) {
@@ -2857,17 +3082,18 @@ class GridSearch {
       xyz_.resize(3 * points);
     }
     if (cell_end_.size() < cells) cell_end_.resize(cells);
-    return index_.build(cloud, radius, {order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cells});
+    return grid_.build(cloud, radius, {order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cells});
   }
 
-  [[nodiscard]] Status status() const noexcept { return index_.status(); }
+  [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
-    return index_.gather(center, radius, out);
+    return grid_.gather({order_.data(), cell_end_.data(), xyz_.data()}, center, radius, out);
   }
 
  private:
-  GridIndex<std::uint32_t> index_{};
+  detail::Grid<std::uint32_t> grid_{};
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> cell_end_;
   std::vector<float> xyz_;
@@ -2896,8 +3122,7 @@ struct NanoflannCloud {
 
   [[nodiscard]] std::size_t kdtree_get_point_count() const { return valid.size(); }
   [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    const Point p = point(cloud, valid[i]);
-    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+    return coordinate(point(cloud, valid[i]), axis);
   }
   template <class BoundingBox>
   bool kdtree_get_bbox(BoundingBox&) const {
@@ -2954,6 +3179,8 @@ class NanoflannSearch {
     return usable == Status::ok && points_.valid.empty() ? Status::empty_cloud : usable;
   }
 
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return points_.cloud.size; }
+
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
@@ -2972,9 +3199,7 @@ class NanoflannSearch {
     std::vector<std::uint32_t> valid;
     if (check(cloud) != Status::ok) return valid;
     valid.reserve(cloud.size);
-    for (std::size_t i = 0; i < cloud.size; ++i) {
-      if (is_finite(point(cloud, i))) valid.push_back(static_cast<std::uint32_t>(i));
-    }
+    for_each_valid(cloud, [&](std::size_t i, const Point&) { valid.push_back(static_cast<std::uint32_t>(i)); });
     return valid;
   }
 

@@ -6,8 +6,11 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
+#include <filesystem>
 #include <numeric>
+#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "demo/options.hpp"
@@ -89,6 +92,10 @@ void write_result(const RgbdCloud& cloud, const DemoOptions& options, const Demo
 int demonstrate(const std::string& file, const DemoOptions& options) {
   const bool generated = file.empty();
   try {
+    std::error_code not_there;
+    if (std::filesystem::equivalent(file, options.out, not_there)) {
+      throw std::runtime_error("--out would overwrite the cloud itself");
+    }
     const Stopwatch reading;
     const RgbdCloud cloud = generated ? make_tabletop() : read_cloud(file);
     const double read_ms = reading.elapsed_ms();

@@ -127,6 +127,20 @@ namespace detail {
   return math::is_finite(p.x) && math::is_finite(p.y) && math::is_finite(p.z);
 }
 
+/// Coordinate 0, 1 or 2 of a point.
+[[nodiscard]] inline float coordinate(const Point& p, std::size_t axis) noexcept {
+  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+/// Calls f(index, point) for each point with three finite coordinates, in order.
+template <class Function>
+void for_each_valid(const CloudView& cloud, Function f) {
+  for (std::size_t i = 0; i < cloud.size; ++i) {
+    const Point p = point(cloud, i);
+    if (is_finite(p)) f(i, p);
+  }
+}
+
 /// The colour of point `index`; the cloud must have colours.
 [[nodiscard]] inline Rgb color(const CloudView& cloud, std::size_t index) noexcept {
   const std::size_t offset = index * cloud.colors.stride_bytes;

@@ -12,6 +12,7 @@
 #include "cloud.hpp"
 #include "config.hpp"
 #include "math.hpp"
+#include "simd.hpp"
 
 namespace shortshot {
 
@@ -113,12 +114,22 @@ template <class Rule>
   return {lightness > 100.0f ? 100.0f : lightness, clamped(500.0f * (fx - fy)), clamped(200.0f * (fy - fz))};
 }
 
-/// CSHOT's colour distance in [0, 1]: L1 over L / 100 and the mean of a / 120 and b / 120, over three.
+/// Lanes of CIELAB colours.
+struct LabLanes {
+  simd::F32 L, a, b;
+};
+
+/// CSHOT's colour distance in [0, 1]: (|dL| / 100 + (|da| / 120 + |db| / 120) / 2) / 3.
+[[nodiscard]] inline simd::F32 color_distance(const LabLanes& p, const LabLanes& q) noexcept {
+  using simd::all;
+  const simd::F32 chroma = simd::abs(p.a - q.a) + simd::abs(p.b - q.b);
+  const simd::F32 distance = simd::abs(p.L - q.L) * all(1.0f / 300.0f) + chroma * all(1.0f / 720.0f);
+  return simd::min(distance, all(1.0f));  // 1 for somebody else's NaN, too
+}
+
 [[nodiscard]] inline float color_distance(const Lab& p, const Lab& q) noexcept {
-  const auto magnitude = [](float value) { return value < 0.0f ? -value : value; };
-  const float chroma = magnitude(p.a - q.a) / 120.0f + magnitude(p.b - q.b) / 120.0f;
-  const float distance = (magnitude(p.L - q.L) / 100.0f + chroma / 2.0f) / 3.0f;
-  return distance < 1.0f ? distance : 1.0f;  // also for a NaN of somebody else's Lab
+  const auto lanes = [](const Lab& c) { return LabLanes{simd::all(c.L), simd::all(c.a), simd::all(c.b)}; };
+  return simd::largest(color_distance(lanes(p), lanes(q)));
 }
 
 }  // namespace SHORTSHOT_ISA

@@ -1,8 +1,9 @@
 // shortshot/config.hpp: the one macro the library sets. There is none for you to set: options are template parameters.
 #pragma once
 
-// Set by us: code compiled for another instruction set lives in another inline namespace, so that two translation
-// units of one program may be compiled with different -m flags without one's code being linked into the other.
+// Set by us: the kernel's code compiled for another instruction set lives in another inline namespace, so that two
+// translation units of one program may be compiled with different -m flags without one's code being linked into the
+// other.
 #if defined(__AVX512F__)
 #define SHORTSHOT_ISA isa_avx512
 #elif defined(__AVX2__)

@@ -27,8 +27,10 @@ inline namespace SHORTSHOT_ISA {
 /// every neighbour's bytes when it is asked: no memory per point.
 template <class LabRule>
 struct RgbColors {
+  using Rule = LabRule;
   CloudView cloud;
   Lab reference;
+  [[nodiscard]] Status status() const noexcept { return has_colors(cloud) ? Status::ok : Status::missing_colors; }
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return to_lab<LabRule>(color(cloud, index)); }
 };
 
@@ -36,11 +38,14 @@ struct RgbColors {
 struct LabColors {
   const Lab* lab;  ///< one per point of the cloud, borrowed
   Lab reference;
+  [[nodiscard]] Status status() const noexcept { return lab != nullptr ? Status::ok : Status::missing_colors; }
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return lab[index]; }
 };
 
 /// For descriptors without colour.
-struct NoColors {};
+struct NoColors {
+  [[nodiscard]] static Status status() noexcept { return Status::ok; }
+};
 
 /// Convert all colours of a cloud into `lab` (cloud.size elements of the caller's). Statuses: empty_cloud,
 /// bad_view, missing_colors.
@@ -100,9 +105,24 @@ inline void locate(const Neighborhood& n, const Frame& frame, Radius radius, Chu
 template <class Colors>
 inline void measure_colors(const Neighborhood& n, const Colors& colors, const Chunk& chunk,
                            float (&signal)[chunk_size]) noexcept {
-  std::uint32_t i = 0;
-  for (; i < chunk.size; ++i) signal[i] = color_distance(colors(n.index[chunk.first + i]), colors.reference);
-  for (; i % simd::lanes != 0; ++i) signal[i] = 0.0f;  // the last register
+  float lightness[chunk_size];
+  float green_red[chunk_size];
+  float blue_yellow[chunk_size];
+  for (std::uint32_t i = 0; i < chunk.size; ++i) {
+    const Lab color = colors(n.index[chunk.first + i]);
+    lightness[i] = color.L;
+    green_red[i] = color.a;
+    blue_yellow[i] = color.b;
+  }
+  for (std::uint32_t i = chunk.size; i % simd::lanes != 0; ++i) {  // the last register
+    lightness[i] = green_red[i] = blue_yellow[i] = 0.0f;
+  }
+  const Lab& key = colors.reference;
+  const LabLanes reference{simd::all(key.L), simd::all(key.a), simd::all(key.b)};
+  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
+    const LabLanes color{simd::load(lightness + i), simd::load(green_red + i), simd::load(blue_yellow + i)};
+    simd::store(signal + i, color_distance(color, reference));
+  }
 }
 
 /// The votes of a chunk, lane-wise: `Count` arrays of positions in the part and fixed-point weights.
@@ -137,10 +157,10 @@ inline void vote(const Chunk& chunk, const float (&signal)[chunk_size],
     }
     const Votes<count> votes = Voting::combine(shares);
     const simd::F32 scale = simd::load(chunk.scale + i);
-    for (int k = 0; k < count; ++k) {
+    unroll<count>([&](auto k) {
       simd::store(out.index[k] + i, truncate_to_int(votes.index[k]));
       simd::store(out.weight[k] + i, round_to_int(votes.weight[k] * scale));
-    }
+    });
   }
 }
 
@@ -156,7 +176,7 @@ inline void add_bits(float* value, std::int32_t weight) noexcept {
 template <int Count>
 inline void scatter(const ChunkVotes<Count>& votes, std::uint32_t size, float* part) noexcept {
   for (std::uint32_t i = 0; i < size; ++i) {
-    for (int k = 0; k < Count; ++k) add_bits(part + votes.index[k][i], votes.weight[k][i]);
+    unroll<Count>([&](auto k) { add_bits(part + votes.index[k][i], votes.weight[k][i]); });
   }
 }
 
@@ -178,21 +198,43 @@ inline void accumulate_all(Descriptor<Voting, Parts...>, const Neighborhood& n, 
   (accumulate<Voting, Parts>(n, colors, chunk, out + D::offset(part++)), ...);
 }
 
-/// Integers to floats of L2 norm 1. Eight partial sums of squares, so that any number of lanes adds in the same order.
-[[nodiscard]] inline Status normalize(float* values, int size) noexcept {
-  float partial[8] = {};
-  for (int i = 0; i < size; ++i) {
-    std::int32_t bits = 0;
-    std::memcpy(&bits, values + i, sizeof bits);
-    values[i] = static_cast<float>(bits);
-    partial[i % 8] += values[i] * values[i];
-  }
-  const float squared_norm =
-      ((partial[0] + partial[1]) + (partial[2] + partial[3])) + ((partial[4] + partial[5]) + (partial[6] + partial[7]));
+/// Integers to floats of L2 norm 1. Squares are added up in eight places, whatever the number of lanes: the same order,
+/// and so the same bits, from all.
+template <int Size>
+[[nodiscard]] inline Status normalize(float* values) noexcept {
+  constexpr int lanes = static_cast<int>(simd::lanes);
+  simd::F32 squares[8 / lanes] = {};
+  const auto convert_eight = [&](float* eight) {
+    unroll<8 / lanes>([&](auto i) {
+      const simd::F32 value = to_float(bits_of(simd::load(eight + i * lanes)));
+      simd::store(eight + i * lanes, value);
+      squares[i] = squares[i] + value * value;
+    });
+  };
+  constexpr int whole = Size / 8 * 8;
+  for (int i = 0; i < whole; i += 8) convert_eight(values + i);
+  float rest[8] = {};
+  std::memcpy(rest, values + whole, (Size - whole) * sizeof(float));
+  convert_eight(rest);
+
+  float s[8];
+  unroll<8 / lanes>([&](auto i) { simd::store(s + i * lanes, squares[i]); });
+  const float squared_norm = ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
   if (!(squared_norm > 0.0f)) return Status::too_few_neighbors;
   const float inverse = 1.0f / simd::root(squared_norm);
-  for (int i = 0; i < size; ++i) values[i] *= inverse;
+  for (int i = 0; i < whole; i += lanes) simd::store(values + i, simd::load(values + i) * simd::all(inverse));
+  for (int i = whole; i < Size; ++i) values[i] = rest[i - whole] * inverse;
   return Status::ok;
+}
+
+/// Where a colour source names the rule it converts by, it must be the descriptor's.
+template <class D, class Colors>
+constexpr bool has_rule_of(const typename Colors::Rule*) noexcept {
+  return !D::needs_colors || std::is_same<typename Colors::Rule, typename D::LabRule>::value;
+}
+template <class D, class Colors>
+constexpr bool has_rule_of(...) noexcept {
+  return true;
 }
 
 }  // namespace detail
@@ -200,22 +242,24 @@ inline void accumulate_all(Descriptor<Voting, Parts...>, const Neighborhood& n, 
 /// Describe a gathered neighbourhood in a frame: the kernel of every descriptor.
 ///
 /// `n`       neighbours of one key point, gathered with at least `radius` (farther ones are left out)
-/// `colors`  a source of Lab by index (RgbColors, LabColors, your own), or NoColors if D needs none
+/// `colors`  a source of Lab by index (RgbColors, LabColors, your own like them), or NoColors if D needs none
 /// `frame`   an orthonormal frame: estimate_frame(), or one you know
 /// `out`     D::size floats: the parts of D in order, L2 norm 1
 ///
 /// Source: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code (voting.hpp).
-/// There is no minimum of neighbours but one. Statuses: bad_radius, bad_frame, too_many_neighbors (over 2^24),
-/// too_few_neighbors (none but the key point and its copies); `out` is all zeros then, and never NaN. No allocation;
-/// reentrant; 3 to 10 KB of stack. The result does not depend on the order of the neighbours.
+/// There is no minimum of neighbours but one. Statuses: bad_radius, bad_frame, missing_colors, too_many_neighbors (over
+/// 2^24), too_few_neighbors (none but the key point and its copies); `out` is all zeros then, and never NaN. No
+/// allocation; reentrant; 3 to 10 KB of stack. The result does not depend on the order of the neighbours.
 template <class D, class Colors>
 [[nodiscard]] inline Status describe(const Neighborhood& n, const Colors& colors, const Frame& frame, Radius radius,
                                      float* out) noexcept {
   std::memset(out, 0, D::size_bytes);
   static_assert(!D::needs_colors || !std::is_same<Colors, NoColors>::value,
                 "D has a colour part: describe() supports RgbColors, LabColors or another source of Lab by index");
+  static_assert(detail::has_rule_of<D, Colors>(nullptr), "describe() supports colours converted by D's own rule");
   Status status = check(radius);
   if (status == Status::ok) status = check(frame);
+  if (status == Status::ok && D::needs_colors) status = colors.status();
   if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
   if (status != Status::ok) return status;
 
@@ -226,7 +270,7 @@ template <class D, class Colors>
     detail::locate(n, frame, radius, chunk);
     detail::accumulate_all(D{}, n, colors, chunk, out);
   }
-  return detail::normalize(out, D::size);
+  return detail::normalize<D::size>(out);
 }
 
 }  // namespace SHORTSHOT_ISA

@@ -35,7 +35,6 @@ struct Support {
   Radius frame_radius;     ///< of the local reference frame; may be smaller or larger
   const Point* viewpoint;  ///< where the camera is, in the cloud's coordinates: turns the frames' z; null: by vote
 
-  Support() = default;
   constexpr Support(Radius r) noexcept : radius(r), frame_radius(r), viewpoint(nullptr) {}  // NOLINT: see above
   constexpr Support(float r) noexcept : Support(Radius(r)) {}                               // NOLINT: see above
 };
@@ -45,8 +44,10 @@ template <class D, class Search>
 [[nodiscard]] inline Status check(const CloudView& cloud, const Search& search, const Support& support) noexcept {
   Status status = check(cloud);
   if (status == Status::ok) status = search.status();
+  if (status == Status::ok && search.cloud_size() != cloud.size) status = Status::bad_view;
   if (status == Status::ok) status = check(support.radius);
   if (status == Status::ok) status = check(support.frame_radius);
+  if (status == Status::ok && support.viewpoint && !is_finite(*support.viewpoint)) status = Status::bad_viewpoint;
   if (status == Status::ok && D::needs_colors && !has_colors(cloud)) status = Status::missing_colors;
   return status;
 }
@@ -73,27 +74,11 @@ template <class D, class Colors>
   return status == Status::ok ? describe<D>(n, colors, frame, support.radius, out) : status;
 }
 
-/// The rule by which a descriptor's colour part converts colours.
-template <class D>
-struct LabRuleOf;
-template <class Voting, class... Parts>
-struct LabRuleOf<Descriptor<Voting, Parts...>> {
-  template <class Signal, class... Others>
-  static auto find(Signal, Others...) noexcept {
-    if constexpr (Signal::needs_colors) {
-      return typename Signal::Rule{};
-    } else if constexpr (sizeof...(Others) > 0) {
-      return find(Others{}...);
-    }
-  }
-  using type = decltype(find(typename Parts::Signal{}...));
-};
-
 /// The colour source that reads a cloud's own bytes.
 template <class D>
 [[nodiscard]] inline auto rgb_colors(const CloudView& cloud, const Rgb& reference) noexcept {
   if constexpr (D::needs_colors) {
-    using Rule = typename LabRuleOf<D>::type;
+    using Rule = typename D::LabRule;
     return RgbColors<Rule>{cloud, to_lab<Rule>(reference)};
   } else {
     return NoColors{};
@@ -109,8 +94,9 @@ template <class D>
 /// `workspace`  a Workspace<MaxNeighbors>; all the memory there is
 /// `out`        D::size floats: the descriptor, L2 norm 1, or all zeros if the status is not ok
 ///
-/// Statuses: empty_cloud, bad_view, bad_radius, missing_colors, invalid_keypoint, too_many_neighbors (the workspace is
-/// too small: Neighborhood::found of a gather() says what it takes), too_few_neighbors, ambiguous_frame.
+/// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint,
+/// missing_colors, invalid_keypoint, too_many_neighbors (the workspace is too small: Neighborhood::found of a gather()
+/// says what it takes), too_few_neighbors, ambiguous_frame; and what the search's build() returned, if not ok.
 /// No allocation; reentrant, one workspace per thread.
 template <class D, class Search, std::size_t MaxNeighbors>
 [[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
@@ -126,7 +112,22 @@ template <class D, class Search, std::size_t MaxNeighbors>
   return detail::describe_gathered<D>(n, detail::rgb_colors<D>(cloud, key.color), key.position, support, out);
 }
 
-/// The same for the point with an index; bad_keypoint if there is none.
+/// The same in a frame that the caller knows; bad_frame if it is not orthonormal.
+template <class D, class Search, std::size_t MaxNeighbors>
+[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
+                                        const Frame& frame, Radius radius, Workspace<MaxNeighbors>& workspace,
+                                        float* out) noexcept {
+  std::memset(out, 0, D::size_bytes);
+  Status status = check<D>(cloud, search, radius);
+  if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
+  if (status != Status::ok) return status;
+  Neighborhood n = neighborhood_in(workspace);
+  status = search.gather(key.position, radius, n);
+  if (status != Status::ok) return status;
+  return describe<D>(n, detail::rgb_colors<D>(cloud, key.color), frame, radius, out);
+}
+
+/// The same for the point with an index, in SHOT's own frame; bad_keypoint if there is none.
 template <class D, class Search, std::size_t MaxNeighbors>
 [[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, std::size_t index,
                                         const Support& support, Workspace<MaxNeighbors>& workspace,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 #include "color.hpp"
 #include "config.hpp"
@@ -48,6 +49,32 @@ struct Part {
   using SignalAxis = Axis<Signal::bins, 1, Beyond::nothing>;
 };
 
+namespace detail {
+
+/// The rule by which all of a descriptor's colour parts convert colours; void if it has none.
+template <class... Signals>
+struct LabRuleOf {
+  using type = void;
+};
+template <class Signal, class... Others>
+struct LabRuleOf<Signal, Others...> {
+  using Next = typename LabRuleOf<Others...>::type;
+  template <class S, bool = S::needs_colors>
+  struct Own {
+    using type = void;
+  };
+  template <class S>
+  struct Own<S, true> {
+    using type = typename S::Rule;
+  };
+  using Mine = typename Own<Signal>::type;
+  static_assert(std::is_void<Mine>::value || std::is_void<Next>::value || std::is_same<Mine, Next>::value,
+                "Descriptor supports one colour conversion for all its parts");
+  using type = std::conditional_t<std::is_void<Mine>::value, Next, Mine>;
+};
+
+}  // namespace detail
+
 /// A descriptor: its parts one after the other, filled by one voting rule and normalised together to L2 norm 1.
 template <class VotingRule, class... Parts>
 struct Descriptor {
@@ -60,13 +87,14 @@ struct Descriptor {
   static_assert(size <= 65536, "Descriptor supports up to 65536 values");
 
   static constexpr bool needs_colors = (Parts::Signal::needs_colors || ...);
+  using LabRule = typename detail::LabRuleOf<typename Parts::Signal...>::type;
 
   /// First value of part `i` (of `parts` ones), and the end of the last part.
   static constexpr int parts = static_cast<int>(sizeof...(Parts));
   [[nodiscard]] static constexpr int offset(int i) noexcept {
     constexpr int sizes[] = {Parts::size...};
     int sum = 0;
-    for (int k = 0; k < i; ++k) sum += sizes[k];
+    for (int k = 0; k < i && k < parts; ++k) sum += sizes[k];
     return sum;
   }
 };

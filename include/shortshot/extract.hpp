@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 #include "cloud.hpp"
@@ -52,8 +53,10 @@ struct Features {
     return values.data() + row * static_cast<std::size_t>(D::size);
   }
 
-  std::vector<Lab> lab;                              ///< scratch: the cloud's colours
-  std::vector<detail::GrowingWorkspace> workspaces;  ///< scratch: one per thread
+  struct {
+    std::vector<Lab> lab;                              // the cloud's colours
+    std::vector<detail::GrowingWorkspace> workspaces;  // one per thread
+  } scratch;                                           ///< extract()'s own; nothing to read there
 };
 
 namespace detail {
@@ -78,27 +81,33 @@ void extract_one(const Search& search, const KeyPoint& key, const Support& suppo
   out.neighbors[row] = n.found;
   if (status != Status::ok) return;
   if constexpr (D::needs_colors) {
-    const LabColors colors{out.lab.data(), to_lab<typename LabRuleOf<D>::type>(key.color)};
+    const LabColors colors{out.scratch.lab.data(), to_lab<typename D::LabRule>(key.color)};
     status = describe_gathered<D>(n, colors, key.position, support, values);
   } else {
     status = describe_gathered<D>(n, NoColors{}, key.position, support, values);
   }
 }
 
+/// Key points that a thread takes at a time.
+inline constexpr std::size_t block_size = 16;
+
 /// Calls work(thread, begin, end) for blocks of [0, count), on `threads` threads of which the caller's is one.
 template <class Work>
 void for_blocks(std::size_t count, std::size_t threads, const Work& work) {
-  constexpr std::size_t block = 16;
   std::atomic<std::size_t> next{0};
   const auto run = [&](std::size_t thread) {
-    for (std::size_t begin = next.fetch_add(block); begin < count; begin = next.fetch_add(block)) {
-      work(thread, begin, std::min(begin + block, count));
+    for (std::size_t begin = next.fetch_add(block_size); begin < count; begin = next.fetch_add(block_size)) {
+      work(thread, begin, std::min(begin + block_size, count));
     }
   };
-  std::vector<std::thread> others;
+  struct Threads : std::vector<std::thread> {
+    ~Threads() {  // also when one more thread cannot be started: those that run finish the work
+      for (std::thread& thread : *this) thread.join();
+    }
+  } others;
+  others.reserve(threads);
   for (std::size_t t = 1; t < threads; ++t) others.emplace_back(run, t);
   run(0);
-  for (std::thread& thread : others) thread.join();
 }
 
 /// `key_at(i)` gives key point i, or nothing for one outside the cloud.
@@ -111,17 +120,18 @@ template <class D, class Search, class KeyAt>
   out.status.assign(count, usable);
   if (usable != Status::ok) return usable;
   if constexpr (D::needs_colors) {
-    out.lab.resize(cloud.size);
-    const Status converted = convert_colors<typename LabRuleOf<D>::type>(cloud, out.lab.data());
+    out.scratch.lab.resize(cloud.size);
+    const Status converted = convert_colors<typename D::LabRule>(cloud, out.scratch.lab.data());
     if (converted != Status::ok) return converted;
   }
-  const std::size_t workers = std::max<std::size_t>(1, std::min<std::size_t>(threads, count));
-  if (out.workspaces.size() < workers) out.workspaces.resize(workers);
+  const std::size_t blocks = (count + block_size - 1) / block_size;
+  const std::size_t workers = std::max<std::size_t>(1, std::min<std::size_t>(threads, blocks));
+  if (out.scratch.workspaces.size() < workers) out.scratch.workspaces.resize(workers);
   for_blocks(count, workers, [&](std::size_t thread, std::size_t begin, std::size_t end) {
     for (std::size_t row = begin; row < end; ++row) {
       KeyPoint key{};
       if (key_at(row, key)) {
-        extract_one(search, key, support, out.workspaces[thread], out, row);
+        extract_one(search, key, support, out.scratch.workspaces[thread], out, row);
       } else {
         out.status[row] = Status::bad_keypoint;
       }
@@ -132,22 +142,24 @@ template <class D, class Search, class KeyAt>
 
 }  // namespace detail
 
-/// Describe many key points of a cloud, given by their indices.
+/// Describe many key points of a cloud, given by their indices (of any integer type; pcl::Indices, too).
 ///
 /// `search`   any search over this cloud (GridSearch, NanoflannSearch, ...)
 /// `support`  radii and viewpoint; a plain float is the radius in metres
 /// `out`      one row and one Status per key point; a key point that cannot be described spoils no other
 /// `threads`  how many threads share the work; the result is the same, bit for bit, for any number
 ///
-/// Returns ok if key points could be looked at at all, else why not: empty_cloud, bad_view, bad_radius, missing_colors
-/// (every row then has that status). Allocates: 12 bytes a point for colours, 20 a neighbour and thread, and the rows.
+/// Returns ok if key points could be looked at at all, else why not, and every row has that status: empty_cloud,
+/// bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint, missing_colors, or what the
+/// search's build() returned. Allocates: 12 bytes a point for colours, 20 a neighbour and thread, and the rows.
 /// May throw what std::vector and std::thread throw (on a thread of its own that ends the program).
-template <class D, class Search>
-[[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<std::uint32_t>& keypoints,
+template <class D, class Search, class Index, class = std::enable_if_t<std::is_integral<Index>::value>>
+[[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Index>& keypoints,
                              const Support& support, Features<D>& out, unsigned threads = 1) {
   const auto key_at = [&](std::size_t row, KeyPoint& key) {
-    if (keypoints[row] >= cloud.size) return false;
-    key = keypoint(cloud, keypoints[row]);
+    const auto index = static_cast<std::size_t>(keypoints[row]);  // a negative one becomes far too large
+    if (index >= cloud.size) return false;
+    key = keypoint(cloud, index);
     return true;
   };
   return detail::extract_all(cloud, search, keypoints.size(), key_at, support, out, threads);

@@ -159,22 +159,26 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, int members, fl
 /// `towards_viewpoint`, if not null, is a vector (3 floats, any length) from the key point to the camera: z is turned
 /// to it and only x by vote. Every depth camera knows it, and it makes frames more repeatable; null is SHOT.
 ///
-/// Statuses: bad_radius; too_many_neighbors (more than 2^24); too_few_neighbors (fewer than five members);
-/// ambiguous_frame (two principal axes equal within float resolution: collinear or symmetric neighbourhoods). `frame`
-/// is zeroed then. On an exactly planar neighbourhood all members lie at z = 0 and the sign of z is the solver's unless
-/// a viewpoint is given. No allocation, reentrant. The result does not depend on the order of the neighbours.
+/// Statuses: bad_radius; bad_viewpoint (not finite); too_many_neighbors (more than 2^24); too_few_neighbors (fewer than
+/// five members); ambiguous_frame (two principal axes equal within float resolution: collinear or symmetric
+/// neighbourhoods). `frame` is zeroed then. On an exactly planar neighbourhood all members lie at z = 0 and the sign of
+/// z is the solver's unless a viewpoint is given. No allocation, reentrant. The result does not depend on the order of
+/// the neighbours.
 [[nodiscard]] inline Status estimate_frame(const Neighborhood& n, Radius radius, Frame& frame,
                                            const float* towards_viewpoint = nullptr) noexcept {
   frame = Frame{};
   const Status usable = check(radius);
   if (usable != Status::ok) return usable;
   if (n.size > max_neighbors) return Status::too_many_neighbors;
+  float view[3] = {};
+  for (int k = 0; k < 3 && towards_viewpoint != nullptr; ++k) view[k] = towards_viewpoint[k];
+  if (!math::is_finite(view)) return Status::bad_viewpoint;
   const detail::WeightedScatter scatter = detail::weighted_scatter(n, radius);
   if (scatter.members < min_frame_neighbors) return Status::too_few_neighbors;
 
   const detail::Eigen3 eigen = detail::decompose(scatter.matrix);
   // What float can tell apart, and what the rounding of the members to integers may have moved.
-  const float resolution = 1e-6f * eigen.values[2] + simd::root(static_cast<float>(scatter.members));
+  const float resolution = 1e-6f * eigen.values[2] + 0.5f * static_cast<float>(scatter.members);
   if (!(eigen.values[2] - eigen.values[1] > resolution && eigen.values[1] - eigen.values[0] > resolution)) {
     return Status::ambiguous_frame;
   }
@@ -184,11 +188,11 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, int members, fl
     frame.z[k] = eigen.vectors[0][k];
   }
   detail::orient_by_vote(n, radius, scatter.members, frame.x);
-  if (towards_viewpoint == nullptr) {
+  const float towards = dot(view, frame.z);
+  if (towards == 0.0f) {  // no viewpoint, or one that does not tell
     detail::orient_by_vote(n, radius, scatter.members, frame.z);
-  } else {
-    const float view[3] = {towards_viewpoint[0], towards_viewpoint[1], towards_viewpoint[2]};
-    if (dot(view, frame.z) < 0.0f) detail::negate(frame.z);
+  } else if (towards < 0.0f) {
+    detail::negate(frame.z);
   }
   frame.y[0] = frame.z[1] * frame.x[2] - frame.z[2] * frame.x[1];
   frame.y[1] = frame.z[2] * frame.x[0] - frame.z[0] * frame.x[2];

@@ -16,8 +16,8 @@ template <int Radial, int Elevation, int Azimuth>
 struct SphericalGrid {
   static_assert(Radial >= 1 && Elevation >= 1 && Azimuth >= 1,
                 "SphericalGrid<Radial, Elevation, Azimuth> supports one or more divisions of each kind");
-  static_assert(Radial <= 1024 && Elevation <= 1024 && Azimuth <= 1024,
-                "SphericalGrid<Radial, Elevation, Azimuth> supports up to 1024 divisions of each kind");
+  static_assert(Radial <= 1024 && Elevation <= 1024 && Azimuth <= 1024 && 1LL * Radial * Elevation * Azimuth <= 65536,
+                "SphericalGrid<Radial, Elevation, Azimuth> supports up to 1024 divisions of each kind, 65536 cells");
   static constexpr int radial = Radial;
   static constexpr int elevation = Elevation;
   static constexpr int azimuth = Azimuth;
@@ -39,7 +39,8 @@ struct LinearRadius {
 /// the rest evenly in log r. (The published default, 0.025 m, is 1/4 of a support radius of 0.1 m.)
 template <int Numerator = 1, int Denominator = 4>
 struct LogRadius {
-  static_assert(0 < Numerator && Numerator < Denominator, "LogRadius<N, D> supports ratios 0 < N / D < 1");
+  static_assert(0 < Numerator && 100LL * Numerator <= 99LL * Denominator,
+                "LogRadius<N, D> supports ratios 0 < N / D <= 0.99");
   template <int Shells>
   [[nodiscard]] static simd::F32 position(simd::F32 u) noexcept {
     const float log_of_ratio = math::log(static_cast<float>(Numerator) / static_cast<float>(Denominator));

@@ -1,9 +1,11 @@
-// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no libm, no static
-// initialiser. Freestanding but for <array>, <cstddef>, <cstdint>, <cstring> and <type_traits>.
+// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initialiser, no
+// libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
+// <type_traits> and <utility> of the standard library. <cstdint>, <cstring> and <type_traits>.
 #pragma once
 
 #include "describe_at.hpp"
 #include "search/brute.hpp"
 #include "search/grid.hpp"
 #include "search/organized.hpp"
+#include "self_check.hpp"
 #include "version.hpp"

@@ -55,8 +55,7 @@ struct HalfTurns {
   const simd::Mask steep = ay > ax;
   const simd::Mask backward = x < all(0.0f);
   const simd::F32 quarter = simd::select(steep, all(0.25f), simd::keep(backward, all(0.5f)));
-  const simd::F32 turned = simd::select(steep, all(0.0f) - eighth, eighth);
-  return {quarter, simd::select(backward, all(0.0f) - turned, turned)};
+  return {quarter, simd::negate(steep ^ backward, eighth)};
 }
 
 /// The angle from the z axis, 0 at z > 0 to 1 at z < 0 (theta / pi); rho >= 0 is the distance from the axis.
@@ -71,8 +70,7 @@ struct HalfTurns {
   using simd::all;
   const HalfTurns half = half_turns(x, y);
   const simd::Mask below = y < all(0.0f);
-  return select(below, all(0.5f) - half.quarter, all(0.5f) + half.quarter) +
-         select(below, all(0.0f) - half.rest, half.rest);
+  return (all(0.5f) + simd::negate(below, half.quarter)) + simd::negate(below, half.rest);
 }
 
 /// Natural logarithm of a positive normal number, absolute error below 2e-7 near 1, relative below 2e-7 elsewhere.

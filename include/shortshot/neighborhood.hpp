@@ -49,7 +49,6 @@ struct Radius {
   float value;
   float squared;
 
-  Radius() = default;
   constexpr Radius(float radius) noexcept : value(radius), squared(radius * radius) {}  // NOLINT: 0.04f is a radius
   [[nodiscard]] static constexpr Radius from_double(double radius) noexcept {
     Radius r(static_cast<float>(radius));

@@ -26,7 +26,7 @@ inline namespace SHORTSHOT_ISA {
   if (usable != Status::ok) return usable;
   if (!math::is_finite(leaf) || !(leaf > 0.0f)) return Status::bad_leaf;
 
-  // Voxel numbers stay floats: whole numbers that no extent can overflow.
+  // Voxel numbers stay floats: whole numbers, exact up to 2^24 voxels from the origin, as the coordinates are.
   struct Candidate {
     float voxel[3];
     float d2;  // to the voxel's centre, in voxels

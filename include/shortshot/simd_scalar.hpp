@@ -24,7 +24,8 @@ struct Mask {
   bool v;
 };
 
-/// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
+/// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno; where there is no
+/// instruction for it, this does too (libm's sqrtf is exactly rounded everywhere).
 [[nodiscard]] inline float root(float value) noexcept {
 #if defined(__ARM_FP)
   float result;
@@ -49,6 +50,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {a.v > b.v}; }
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {a.v >= b.v}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
+[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {root(a.v)}; }
@@ -58,10 +60,20 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 
 /// yes where m, else no.
 [[nodiscard]] inline F32 select(Mask m, F32 yes, F32 no) noexcept { return {m.v ? yes.v : no.v}; }
+/// -a where m, else a.
+[[nodiscard]] inline F32 negate(Mask m, F32 a) noexcept { return {m.v ? -a.v : a.v}; }
 /// a where m, else zero.
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {m.v ? a.v : 0.0f}; }
 /// 1 where m, else zero.
 [[nodiscard]] inline I32 ones(Mask m) noexcept { return {m.v ? 1 : 0}; }
+
+/// The integers whose bits are those of a.
+[[nodiscard]] inline I32 bits_of(F32 a) noexcept {
+  I32 bits{};
+  std::memcpy(&bits.v, &a.v, sizeof bits.v);
+  return bits;
+}
+[[nodiscard]] inline F32 to_float(I32 a) noexcept { return {static_cast<float>(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
 [[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {static_cast<std::int32_t>(a.v)}; }
@@ -69,12 +81,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 
 /// To the nearest integer, ties to even; |a| <= 2^22. Adding 1.5 * 2^23 leaves the integer in the low mantissa bits:
 /// the same bits on every machine, with no call into libm.
-[[nodiscard]] inline I32 round_to_int(F32 a) noexcept {
-  const float shifted = a.v + 12582912.0f;
-  std::int32_t bits = 0;
-  std::memcpy(&bits, &shifted, sizeof bits);
-  return {bits - 0x4B400000};
-}
+[[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {bits_of({a.v + 12582912.0f}).v - 0x4B400000}; }
 
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA

@@ -18,11 +18,11 @@ enum class [[nodiscard]] Status : std::uint8_t {
   bad_keypoint,        ///< a key point's index lies outside the cloud
   invalid_keypoint,    ///< a key point's position is not finite
   missing_colors,      ///< the descriptor needs colours and the cloud has none
-  missing_normals,     ///< the descriptor needs normals and the cloud has none
   too_few_neighbors,   ///< no neighbour to describe, or fewer than five for a local reference frame
   too_many_neighbors,  ///< the neighbourhood does not fit the workspace; Neighborhood::found says what it takes
   ambiguous_frame,     ///< collinear or symmetric neighbourhood: two principal axes cannot be told apart
   bad_frame,           ///< a given frame is not orthonormal, or not finite
+  bad_viewpoint,       ///< a viewpoint is not finite
   bad_leaf,            ///< a voxel size is not a finite number above zero
   out_of_memory,       ///< caller-provided memory is too small for the cloud
   not_organized,       ///< the cloud is no image of a pinhole camera, so it has no image window to search
@@ -43,11 +43,11 @@ inline namespace SHORTSHOT_ISA {
     case Status::bad_keypoint: return "the key point's index lies outside the cloud";
     case Status::invalid_keypoint: return "the key point is not finite";
     case Status::missing_colors: return "the descriptor needs colours and the cloud has none";
-    case Status::missing_normals: return "the descriptor needs normals and the cloud has none";
     case Status::too_few_neighbors: return "too few neighbours within the radius";
     case Status::too_many_neighbors: return "more neighbours than the workspace can hold";
     case Status::ambiguous_frame: return "the neighbourhood is too symmetric for a local reference frame";
     case Status::bad_frame: return "the given frame is not orthonormal";
+    case Status::bad_viewpoint: return "the viewpoint is not finite";
     case Status::bad_leaf: return "a voxel size must be finite and above zero";
     case Status::out_of_memory: return "the memory provided is too small";
     case Status::not_organized: return "the cloud is not an image of a pinhole camera";

@@ -7,6 +7,7 @@
 
 #include "config.hpp"
 #include "simd.hpp"
+#include "unroll.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -57,13 +58,13 @@ template <class Axis>
   if constexpr (Axis::cells == 1) return {index, all(0.0f), weight, all(1.0f) < all(0.0f)};
 
   const simd::Mask upper = fraction > all(0.5f);
-  const simd::F32 step = select(upper, all(stride), all(-stride));
-  const simd::F32 neighbor = cell + select(upper, all(1.0f), all(-1.0f));
-  const simd::Mask below = neighbor < all(0.0f);
-  const simd::Mask above = neighbor > all(last);
+  const simd::F32 step = simd::negate(upper, all(-stride));
+  const simd::F32 neighbor = cell + simd::negate(upper, all(-1.0f));
   if constexpr (Axis::end == Beyond::first_cell) {
-    const simd::F32 wrapped = select(below, all(last * stride), select(above, all(-last * stride), step));
-    return {index, wrapped, weight, all(0.0f) < all(1.0f)};
+    const simd::F32 around = all(static_cast<float>(Axis::cells) * stride);
+    const simd::F32 up = keep(all(0.0f) > neighbor, around);
+    const simd::F32 down = keep(neighbor > all(last), around);
+    return {index, (step + up) - down, weight, all(0.0f) < all(1.0f)};
   }
   const simd::Mask inside = (neighbor >= all(0.0f)) & (all(last) >= neighbor);
   return {index, keep(inside, step), weight, inside};
@@ -72,7 +73,7 @@ template <class Axis>
 template <int Axes>
 [[nodiscard]] inline simd::F32 primary_index(const Share (&shares)[Axes]) noexcept {
   simd::F32 index = shares[0].cell;
-  for (int i = 1; i < Axes; ++i) index = index + shares[i].cell;
+  unroll<Axes - 1>([&](auto i) { index = index + shares[i + 1].cell; });
   return index;
 }
 
@@ -99,17 +100,17 @@ struct AdditiveVoting {
   [[nodiscard]] static Votes<Axes + 1> combine(const Share (&shares)[Axes]) noexcept {
     using simd::all;
     simd::F32 sum = shares[0].weight;
-    for (int i = 1; i < Axes; ++i) sum = sum + shares[i].weight;
+    detail::unroll<Axes - 1>([&](auto i) { sum = sum + shares[i + 1].weight; });
 
     Votes<Axes + 1> votes;
     votes.index[0] = detail::primary_index(shares);
     votes.weight[0] = sum;
-    for (int i = 0; i < Axes; ++i) {
+    detail::unroll<Axes>([&](auto i) {
       simd::F32 weight = sum + swap_share(shares[i]);
       if (FlipRadius && i == 3) weight = weight + swap_share(shares[0]);
       votes.index[i + 1] = votes.index[0] + shares[i].partner;
       votes.weight[i + 1] = keep(shares[i].has_partner, weight);
-    }
+    });
     return votes;
   }
 
@@ -159,14 +160,14 @@ struct MultilinearVoting {
     Votes<(1 << Axes)> votes;
     votes.index[0] = detail::primary_index(shares);
     votes.weight[0] = simd::all(1.0f);
-    for (int axis = 0; axis < Axes; ++axis) {
-      const int half = 1 << axis;
-      for (int i = 0; i < half; ++i) {
+    detail::unroll<Axes>([&](auto axis) {
+      constexpr int half = 1 << decltype(axis)::value;
+      detail::unroll<half>([&](auto i) {
         votes.index[half + i] = votes.index[i] + shares[axis].partner;
         votes.weight[half + i] = votes.weight[i] * (simd::all(1.0f) - shares[axis].weight);
         votes.weight[i] = votes.weight[i] * shares[axis].weight;
-      }
-    }
+      });
+    });
     return votes;
   }
 };

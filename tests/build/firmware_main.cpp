@@ -25,7 +25,13 @@ int main() {
   const float length = squared_length(descriptor);
   const int outside = describe_patch(cloud[0], side * side, side * side, 0.04f, descriptor);
   const float nothing = squared_length(descriptor);
-  std::printf("status %d, squared length %f; index outside: status %d, squared length %f\n", described,
-              static_cast<double>(length), outside, static_cast<double>(nothing));
-  return described == 0 && length > 0.999f && length < 1.001f && outside != 0 && nothing == 0.0f ? 0 : 1;
+  for (float& value : descriptor) value = 7.0f;
+  const int no_radius = describe_patch(cloud[0], side * side, 0, -1.0f, descriptor);
+  const float still_nothing = squared_length(descriptor);
+  std::printf("status %d, squared length %f; index outside: status %d, squared length %f; no radius: %d, %f\n",
+              described, static_cast<double>(length), outside, static_cast<double>(nothing), no_radius,
+              static_cast<double>(still_nothing));
+  const bool good = described == 0 && length > 0.999f && length < 1.001f;
+  const bool refused = outside != 0 && nothing == 0.0f && no_radius != 0 && still_nothing == 0.0f;
+  return good && refused ? 0 : 1;
 }

@@ -48,4 +48,20 @@ static_assert(shortshot::Descriptor<shortshot::PublishedVoting>::size == 0, "");
 static_assert(shortshot::Ssh<Grid<64, 64, 64>>::size == 262144, "");
 #elif CASE == 11
 shortshot::GridIndex<int> grid;
+#elif CASE == 12
+static_assert(Grid<1024, 1024, 1024>::cells > 0, "");
+#elif CASE == 13
+template <class Rule>
+using ColorPart = shortshot::Part<Grid<1, 1, 4>, shortshot::ColorDistance<5, Rule>>;
+using TwoRules =
+    shortshot::Descriptor<shortshot::PublishedVoting, ColorPart<shortshot::PublishedLab>, ColorPart<shortshot::PclLab>>;
+static_assert(TwoRules::size == 40, "");
+#elif CASE == 14
+shortshot::Status wrong_rule(const shortshot::Neighborhood& n, const shortshot::CloudView& cloud, float* out) {
+  return shortshot::describe<shortshot::Scsh336>(n, shortshot::RgbColors<shortshot::PclLab>{cloud, {}}, {}, 0.1f, out);
+}
+#elif CASE == 15
+shortshot::Status no_colors(const shortshot::Neighborhood& n, float* out) {
+  return shortshot::describe<shortshot::Scsh336>(n, shortshot::NoColors{}, {}, 0.1f, out);
+}
 #endif

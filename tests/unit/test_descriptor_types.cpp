@@ -45,7 +45,12 @@ constexpr bool is_plain = std::is_trivial<T>::value&& std::is_standard_layout<T>
 static_assert(is_plain<ss::Workspace<100>> && is_plain<ss::CloudView> && is_plain<ss::Frame>, "memory");
 static_assert(is_plain<ss::Neighborhood> && is_plain<ss::KeyPoint> && is_plain<ss::Lab> && is_plain<ss::Point>,
               "memory");
-static_assert(is_plain<ss::Radius> && is_plain<ss::Support> && is_plain<ss::BruteSearch>, "memory");
+static_assert(is_plain<ss::BruteSearch>, "memory");
+// Not trivial, on purpose: a support without a radius would be made of garbage.
+static_assert(std::is_trivially_copyable<ss::Radius>::value && std::is_trivially_copyable<ss::Support>::value,
+              "memory");
+static_assert(!std::is_default_constructible<ss::Radius>::value, "a radius has a value");
+static_assert(!std::is_default_constructible<ss::Support>::value, "a support has a radius");
 static_assert(std::is_trivial<ss::GridIndex<std::uint16_t>>::value && std::is_trivial<ss::GridIndex<>>::value,
               "memory");
 static_assert(std::is_trivial<ss::StaticGrid<10, 10>>::value && std::is_trivial<ss::OrganizedSearch>::value, "memory");
@@ -68,7 +73,7 @@ static_assert(memory_of<1025, 513> == 2 * (1024 + 512), "2 bytes each");
 
 static_assert(std::is_same<std::underlying_type_t<ss::Status>, std::uint8_t>::value, "one byte a key point");
 static_assert(static_cast<int>(ss::Status::ok) == 0, "zeroed memory says ok");
-static_assert(!std::is_copy_constructible<ss::GridSearch>::value, "its index points into itself");
+static_assert(std::is_copy_constructible<ss::GridSearch>::value, "its memory goes along");
 static_assert(!std::is_copy_constructible<ss::NanoflannSearch>::value, "its tree refers to itself");
 
 }  // namespace

@@ -29,6 +29,7 @@ struct GivenColors {
   const std::vector<ss::Lab>* lab;
   ss::Lab reference;
   ss::Lab operator()(std::uint32_t index) const { return (*lab)[index]; }
+  static ss::Status status() { return ss::Status::ok; }
 };
 
 /// The descriptor (radius 1, upright frame) of points at these positions.

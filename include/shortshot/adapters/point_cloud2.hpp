@@ -48,8 +48,8 @@ template <class Message>
 /// height and is_bigendian. Fields x, y, z must be FLOAT32; colour is a field `rgb` or `rgba`, a FLOAT32 or UINT32 with
 /// 0xAARRGGBB packed into it. The view borrows the message's bytes.
 ///
-/// Status bad_view (and an empty view): no x, y or z of that type, a field outside point_step, data shorter than
-/// width * height points, padded rows, or the other byte order. No allocation.
+/// Statuses: empty_cloud (no point); bad_view (and an empty view): no x, y or z of that type, a field outside
+/// point_step, data shorter than width * height points, padded rows, or the other byte order. No allocation.
 template <class Message>
 [[nodiscard]] Status view_point_cloud2(const Message& message, CloudView& view) noexcept {
   view = CloudView{};

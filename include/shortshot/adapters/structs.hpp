@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <iterator>
 #include <type_traits>
 #include <utility>
 
@@ -52,7 +53,7 @@ template <class P>
   return view;
 }
 
-/// View of a std::vector, std::array or anything else with data() and size(); or of a pcl::PointCloud-shaped object:
+/// View of an array, a std::vector or anything else with data() and size(); or of a pcl::PointCloud-shaped object:
 /// `points` with data() and size(), and `width` and `height`.
 template <class Container>
 [[nodiscard]] CloudView view_of(const Container& cloud) noexcept {
@@ -62,7 +63,7 @@ template <class Container>
                ? organized(view, cloud.width, cloud.height)
                : view;
   } else {
-    return view_of(cloud.data(), cloud.size());
+    return view_of(std::data(cloud), std::size(cloud));
   }
 }
 

@@ -13,16 +13,19 @@
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
-/// A search is anything with two functions:
+/// A search is anything with three functions:
 /// * `Status gather(Point center, Radius radius, Neighborhood& out) const noexcept` offers each valid point within the
 ///   radius to `out` exactly once, in any order, by the index it has in the cloud. It returns status() if that is
 ///   not ok, and too_many_neighbors if `out` is too small, with the number in `out.found`. It allocates nothing, and
 ///   several threads may call it at once;
-/// * `Status status() const noexcept` says why it cannot be asked, if so: what its build() returned.
+/// * `Status status() const noexcept` says why it cannot be asked, if so: what its build() returned;
+/// * `std::size_t cloud_size() const noexcept` is the size of its cloud, so that it is not asked about another one.
 struct BruteSearch {
   CloudView cloud;
 
   [[nodiscard]] Status status() const noexcept { return check(cloud); }
+
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud.size; }
 
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
     clear(out);

@@ -28,10 +28,122 @@ struct GridMemory {
 };
 
 inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// What a search reads of a grid's memory.
+template <class Index>
+struct GridContents {
+  const Index* order;
+  const Index* cell_end;
+  const float* xyz;
+};
+
+/// What a grid knows besides its memory, which is handed to it at every call: an owner of both can be copied.
+template <class Index>
+class Grid {
+ public:
+  using Memory = GridMemory<Index>;
+  using Contents = GridContents<Index>;
+
+  [[nodiscard]] Status build(const CloudView& cloud, float cell_size, const Memory& memory) noexcept {
+    *this = Grid{};
+    cloud_ = cloud;
+    status_ = index_points(cell_size, memory);
+    return status_;
+  }
+
+  [[nodiscard]] Status status() const noexcept {
+    return points_ == 0 && status_ == Status::ok ? Status::empty_cloud : status_;
+  }
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_.size; }
+  [[nodiscard]] std::size_t size() const noexcept { return points_; }
+
+  [[nodiscard]] Status gather(const Contents& contents, const Point& center, Radius radius,
+                              Neighborhood& out) const noexcept {
+    clear(out);
+    if (status() != Status::ok) return status();
+    // The margin covers the rounding of d2: a point inside by d2 is never outside by one coordinate.
+    const float reach = radius.value * 1.000001f;
+    const CellRange x = box_.range(0, center.x, reach);
+    const CellRange y = box_.range(1, center.y, reach);
+    const CellRange z = box_.range(2, center.z, reach);
+    for (std::uint32_t cz = z.first; cz <= z.last; ++cz) {
+      for (std::uint32_t cy = y.first; cy <= y.last; ++cy) {
+        const std::size_t row = box_.row(cy, cz);
+        offer_run(contents, begin_of(contents, row + x.first), contents.cell_end[row + x.last], center, radius, out);
+      }
+    }
+    return outcome(out);
+  }
+
+ private:
+  [[nodiscard]] Status index_points(float cell_size, const Memory& memory) noexcept {
+    const Status usable = check(cloud_);
+    if (usable != Status::ok) return usable;
+    if (check(Radius(cell_size)) != Status::ok) return Status::bad_radius;
+    if (memory.cell_capacity == 0) return Status::out_of_memory;
+
+    Extent extent;
+    const std::size_t valid = measure(cloud_, extent);
+    if (valid == 0) return Status::empty_cloud;
+    constexpr std::size_t most = static_cast<Index>(~Index{0});
+    if (valid > memory.point_capacity || valid > most || cloud_.size > most) return Status::out_of_memory;
+
+    box_ = fit_box(cloud_, extent, valid, cell_size, memory.cell_end, memory.cell_capacity);
+    points_ = valid;
+    sort(memory);
+    return Status::ok;
+  }
+
+  /// cell_end[c] is where cell c ends in `order`; it begins where the cell before it ends.
+  [[nodiscard]] static std::size_t begin_of(const Contents& contents, std::size_t cell) noexcept {
+    return cell == 0 ? 0 : contents.cell_end[cell - 1];
+  }
+
+  void offer_run(const Contents& contents, std::size_t begin, std::size_t end, const Point& center, Radius radius,
+                 Neighborhood& out) const noexcept {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t index = contents.order[i];
+      const Point p = contents.xyz == nullptr
+                          ? point(cloud_, index)
+                          : Point{contents.xyz[3 * i], contents.xyz[3 * i + 1], contents.xyz[3 * i + 2]};
+      offer(out, p, index, center, radius.squared);
+    }
+  }
+
+  /// Counting sort: count per cell, turn counts into ends of the cells before, and let each placed point move its
+  /// cell's end forward to where it belongs.
+  void sort(const Memory& memory) noexcept {
+    const std::size_t cells = box_.cells();
+    for (std::size_t c = 0; c < cells; ++c) memory.cell_end[c] = 0;
+    for_each_valid(cloud_, [&](std::size_t, const Point& p) { ++memory.cell_end[box_.cell_of(p)]; });
+    Index begin = 0;
+    for (std::size_t c = 0; c < cells; ++c) {
+      const Index count = memory.cell_end[c];
+      memory.cell_end[c] = begin;
+      begin = static_cast<Index>(begin + count);
+    }
+    for_each_valid(cloud_, [&](std::size_t index, const Point& p) {
+      const std::size_t place = memory.cell_end[box_.cell_of(p)]++;
+      memory.order[place] = static_cast<Index>(index);
+      if (memory.xyz == nullptr) return;
+      memory.xyz[3 * place] = p.x;
+      memory.xyz[3 * place + 1] = p.y;
+      memory.xyz[3 * place + 2] = p.z;
+    });
+  }
+
+  CloudView cloud_;
+  GridBox box_;
+  std::size_t points_;
+  Status status_;
+};
+
+}  // namespace detail
 
 /// The index itself, in memory that somebody else owns; a search (see brute.hpp for the concept). Trivial type: build()
 /// before the first gather(). The cloud and the memory must outlive it. `Index` may be uint16_t for clouds of up to
-/// 65,536 points, invalid ones included.
+/// 65,535 points, invalid ones included.
 template <class Index = std::uint32_t>
 class GridIndex {
   static_assert(std::is_same<Index, std::uint16_t>::value || std::is_same<Index, std::uint32_t>::value,
@@ -46,108 +158,24 @@ class GridIndex {
   /// Statuses: empty_cloud, bad_view, bad_radius (the cell size), out_of_memory (more valid points than
   /// point_capacity, points with indices beyond Index, or no cell). O(points + cells); allocates nothing.
   [[nodiscard]] Status build(const CloudView& cloud, float cell_size, const GridMemory<Index>& memory) noexcept {
-    *this = GridIndex{};
-    cloud_ = cloud;
     memory_ = memory;
-    status_ = index_points(cell_size);
-    return status_;
+    return grid_.build(cloud, cell_size, memory);
   }
 
   /// What the last build() returned; empty_cloud before the first one (in memory that started as zeros).
-  [[nodiscard]] Status status() const noexcept {
-    return points_ == 0 && status_ == Status::ok ? Status::empty_cloud : status_;
-  }
+  [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
   /// Number of points in the index: the cloud's valid ones.
-  [[nodiscard]] std::size_t size() const noexcept { return points_; }
+  [[nodiscard]] std::size_t size() const noexcept { return grid_.size(); }
 
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
-    clear(out);
-    if (status() != Status::ok) return status();
-    // The margin covers the rounding of d2: a point inside by d2 is never outside by one coordinate.
-    const float reach = radius.value * 1.000001f;
-    const detail::CellRange x = box_.range(0, center.x, reach);
-    const detail::CellRange y = box_.range(1, center.y, reach);
-    const detail::CellRange z = box_.range(2, center.z, reach);
-    for (std::uint32_t cz = z.first; cz <= z.last; ++cz) {
-      for (std::uint32_t cy = y.first; cy <= y.last; ++cy) {
-        const std::size_t row = box_.row(cy, cz);
-        offer_run(begin_of(row + x.first), memory_.cell_end[row + x.last], center, radius, out);
-      }
-    }
-    return outcome(out);
+    return grid_.gather({memory_.order, memory_.cell_end, memory_.xyz}, center, radius, out);
   }
 
  private:
-  [[nodiscard]] Status index_points(float cell_size) noexcept {
-    const Status usable = check(cloud_);
-    if (usable != Status::ok) return usable;
-    if (check(Radius(cell_size)) != Status::ok) return Status::bad_radius;
-    if (memory_.cell_capacity == 0) return Status::out_of_memory;
-
-    detail::Extent extent;
-    const std::size_t valid = detail::measure(cloud_, extent);
-    if (valid == 0) return Status::empty_cloud;
-    constexpr std::size_t most = static_cast<Index>(~Index{0});
-    if (valid > memory_.point_capacity || valid > most || cloud_.size - 1 > most) return Status::out_of_memory;
-
-    box_ = detail::fit_box(cloud_, extent, valid, cell_size, memory_.cell_end, memory_.cell_capacity);
-    points_ = valid;
-    sort();
-    return Status::ok;
-  }
-
-  /// cell_end[c] is where cell c ends in `order`; it begins where the cell before it ends.
-  [[nodiscard]] std::size_t begin_of(std::size_t cell) const noexcept {
-    return cell == 0 ? 0 : memory_.cell_end[cell - 1];
-  }
-
-  void offer_run(std::size_t begin, std::size_t end, const Point& center, Radius radius,
-                 Neighborhood& out) const noexcept {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t index = memory_.order[i];
-      const Point p = memory_.xyz == nullptr
-                          ? point(cloud_, index)
-                          : Point{memory_.xyz[3 * i], memory_.xyz[3 * i + 1], memory_.xyz[3 * i + 2]};
-      offer(out, p, index, center, radius.squared);
-    }
-  }
-
-  /// Counting sort: count per cell, turn counts into ends of the cells before, and let each placed point move its
-  /// cell's end forward to where it belongs.
-  void sort() noexcept {
-    const std::size_t cells = box_.cells();
-    for (std::size_t c = 0; c < cells; ++c) memory_.cell_end[c] = 0;
-    for_each_valid([this](std::size_t, std::size_t cell, const Point&) { ++memory_.cell_end[cell]; });
-    Index begin = 0;
-    for (std::size_t c = 0; c < cells; ++c) {
-      const Index count = memory_.cell_end[c];
-      memory_.cell_end[c] = begin;
-      begin = static_cast<Index>(begin + count);
-    }
-    for_each_valid([this](std::size_t index, std::size_t cell, const Point& p) {
-      const std::size_t place = memory_.cell_end[cell]++;
-      memory_.order[place] = static_cast<Index>(index);
-      if (memory_.xyz == nullptr) return;
-      memory_.xyz[3 * place] = p.x;
-      memory_.xyz[3 * place + 1] = p.y;
-      memory_.xyz[3 * place + 2] = p.z;
-    });
-  }
-
-  template <class Function>
-  void for_each_valid(Function f) const noexcept {
-    for (std::size_t i = 0; i < cloud_.size; ++i) {
-      const Point p = point(cloud_, i);
-      if (is_finite(p)) f(i, box_.cell_of(p), p);
-    }
-  }
-
-  CloudView cloud_;
+  detail::Grid<Index> grid_;
   GridMemory<Index> memory_;
-  detail::GridBox box_;
-  std::size_t points_;
-  Status status_;
 };
 
 /// A GridIndex with its memory inside, for clouds of up to `MaxPoints` valid points: a static or a member, no heap.
@@ -162,17 +190,18 @@ class StaticGrid {
 
   /// See GridIndex::build().
   [[nodiscard]] Status build(const CloudView& cloud, float cell_size) noexcept {
-    return index_.build(cloud, cell_size, {order_, cell_end_, nullptr, MaxPoints, MaxCells});
+    return grid_.build(cloud, cell_size, {order_, cell_end_, nullptr, MaxPoints, MaxCells});
   }
 
-  [[nodiscard]] Status status() const noexcept { return index_.status(); }
+  [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
-    return index_.gather(center, radius, out);
+    return grid_.gather({order_, cell_end_, nullptr}, center, radius, out);
   }
 
  private:
-  GridIndex<Index> index_;
+  detail::Grid<Index> grid_;
   Index order_[MaxPoints];
   Index cell_end_[MaxCells];
 };

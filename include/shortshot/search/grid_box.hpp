@@ -17,23 +17,17 @@ struct Extent {
   float high[3];
 };
 
-[[nodiscard]] inline float coordinate(const Point& p, int axis) noexcept {
-  return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-}
-
 /// Extent of the valid points; returns how many there are.
 [[nodiscard]] inline std::size_t measure(const CloudView& cloud, Extent& extent) noexcept {
   std::size_t valid = 0;
-  for (std::size_t i = 0; i < cloud.size; ++i) {
-    const Point p = point(cloud, i);
-    if (!is_finite(p)) continue;
-    for (int axis = 0; axis < 3; ++axis) {
+  for_each_valid(cloud, [&](std::size_t, const Point& p) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
       const float v = coordinate(p, axis);
       if (valid == 0 || v < extent.low[axis]) extent.low[axis] = v;
       if (valid == 0 || v > extent.high[axis]) extent.high[axis] = v;
     }
     ++valid;
-  }
+  });
   return valid;
 }
 
@@ -89,7 +83,7 @@ struct GridBox {
 /// Cut the thinly populated ends off one axis: of 64 slices, those at either end that together hold at most 1 point in
 /// 128. Returns whether that at least halved the extent, which is when another round is worth while.
 template <class Index>
-[[nodiscard]] inline bool trim(const CloudView& cloud, std::size_t valid, int axis, Index* slices,
+[[nodiscard]] inline bool trim(const CloudView& cloud, std::size_t valid, std::size_t axis, Index* slices,
                                Extent& extent) noexcept {
   constexpr int count = 64;
   const float low = extent.low[axis];
@@ -100,10 +94,7 @@ template <class Index>
     const float s = (v - low) / width;
     return !(s > 0.0f) ? 0 : s < count - 1.0f ? static_cast<int>(s) : count - 1;
   };
-  for (std::size_t i = 0; i < cloud.size; ++i) {
-    const Point p = point(cloud, i);
-    if (is_finite(p)) ++slices[slice_of(coordinate(p, axis))];
-  }
+  for_each_valid(cloud, [&](std::size_t, const Point& p) { ++slices[slice_of(coordinate(p, axis))]; });
 
   int first = 0;
   int last = count - 1;
@@ -121,7 +112,7 @@ template <class Index>
 [[nodiscard]] inline GridBox fit_box(const CloudView& cloud, Extent extent, std::size_t valid, float cell_size,
                                      Index* scratch, std::size_t capacity) noexcept {
   GridBox box;
-  for (int axis = 0; axis < 3; ++axis) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     // A round divides the extent by up to 64: two dozen span all of float's range.
     for (int round = 0; round < 24 && capacity >= 64; ++round) {
       if (count_cells(extent, cell_size, capacity, box.dims)) break;

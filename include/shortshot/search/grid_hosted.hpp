@@ -14,7 +14,7 @@
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
-/// A GridIndex that owns its memory: 16 bytes a point and 4 a cell, with at most four cells a point (and 4,096)
+/// A fixed-radius grid that owns its memory: 16 bytes a point and 4 a cell, with at most four cells a point (and 4,096)
 /// whatever the cloud's extent. A search (see brute.hpp); the cloud must outlive it. build() again for the next frame:
 /// its memory is reused. Queries are thread-safe.
 class GridSearch {
@@ -23,9 +23,6 @@ class GridSearch {
 
   /// Sorts the cloud into cells of `radius`. If that fails status() says why, and so do extract() and describe_at().
   GridSearch(const CloudView& cloud, float radius) { static_cast<void>(build(cloud, radius)); }
-
-  GridSearch(const GridSearch&) = delete;  // the index points into this object's own memory
-  GridSearch& operator=(const GridSearch&) = delete;
 
   /// See GridIndex::build(); may throw std::bad_alloc.
   [[nodiscard]] Status build(const CloudView& cloud, float radius) {
@@ -36,17 +33,18 @@ class GridSearch {
       xyz_.resize(3 * points);
     }
     if (cell_end_.size() < cells) cell_end_.resize(cells);
-    return index_.build(cloud, radius, {order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cells});
+    return grid_.build(cloud, radius, {order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cells});
   }
 
-  [[nodiscard]] Status status() const noexcept { return index_.status(); }
+  [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
-    return index_.gather(center, radius, out);
+    return grid_.gather({order_.data(), cell_end_.data(), xyz_.data()}, center, radius, out);
   }
 
  private:
-  GridIndex<std::uint32_t> index_{};
+  detail::Grid<std::uint32_t> grid_{};
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> cell_end_;
   std::vector<float> xyz_;

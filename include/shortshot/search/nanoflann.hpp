@@ -23,8 +23,7 @@ struct NanoflannCloud {
 
   [[nodiscard]] std::size_t kdtree_get_point_count() const { return valid.size(); }
   [[nodiscard]] float kdtree_get_pt(std::size_t i, std::size_t axis) const {
-    const Point p = point(cloud, valid[i]);
-    return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+    return coordinate(point(cloud, valid[i]), axis);
   }
   template <class BoundingBox>
   bool kdtree_get_bbox(BoundingBox&) const {
@@ -81,6 +80,8 @@ class NanoflannSearch {
     return usable == Status::ok && points_.valid.empty() ? Status::empty_cloud : usable;
   }
 
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return points_.cloud.size; }
+
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
@@ -99,9 +100,7 @@ class NanoflannSearch {
     std::vector<std::uint32_t> valid;
     if (check(cloud) != Status::ok) return valid;
     valid.reserve(cloud.size);
-    for (std::size_t i = 0; i < cloud.size; ++i) {
-      if (is_finite(point(cloud, i))) valid.push_back(static_cast<std::uint32_t>(i));
-    }
+    for_each_valid(cloud, [&](std::size_t i, const Point&) { valid.push_back(static_cast<std::uint32_t>(i)); });
     return valid;
   }
 

@@ -48,6 +48,8 @@ class OrganizedSearch {
   /// What the last build() returned; empty_cloud before the first one (in memory that started as zeros).
   [[nodiscard]] Status status() const noexcept { return cloud_.size == 0 ? Status::empty_cloud : status_; }
 
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_.size; }
+
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
@@ -88,14 +90,12 @@ class OrganizedSearch {
 
   /// Calls f(column, row, x / z, y / z) for each valid point.
   template <class Function>
-  void for_each_valid(Function f) const noexcept {
-    for (std::size_t i = 0; i < cloud_.size; ++i) {
-      const Point p = point(cloud_, i);
-      if (!is_finite(p)) continue;
+  void for_each_pixel(Function f) const noexcept {
+    for_each_valid(cloud_, [&](std::size_t i, const Point& p) {
       const std::size_t row = i / cloud_.width;
       const std::size_t column = i % cloud_.width;
       f(static_cast<float>(column), static_cast<float>(row), p.x / p.z, p.y / p.z);
-    }
+    });
   }
 
   [[nodiscard]] Status fit() noexcept {
@@ -107,28 +107,26 @@ class OrganizedSearch {
     }
     bool front = false;
     bool behind = false;
-    for (std::size_t i = 0; i < cloud_.size; ++i) {
-      const Point p = point(cloud_, i);
-      if (!is_finite(p)) continue;
+    for_each_valid(cloud_, [&](std::size_t, const Point& p) {
       front = front || p.z > 0.0f;
       behind = behind || !(p.z > 0.0f);
-    }
+    });
     if (!front && !behind) return Status::empty_cloud;
     if (front && behind) return Status::not_organized;
 
     Line columns{};
     Line rows{};
-    for_each_valid([&](float u, float v, float x, float y) {
+    for_each_pixel([&](float u, float v, float x, float y) {
       columns.add_to_mean(x, u);
       rows.add_to_mean(y, v);
     });
-    for_each_valid([&](float u, float v, float x, float y) {
+    for_each_pixel([&](float u, float v, float x, float y) {
       columns.add_to_slope(x, u);
       rows.add_to_slope(y, v);
     });
     columns_ = columns.projection();
     rows_ = rows.projection();
-    for_each_valid([&](float u, float v, float x, float y) {
+    for_each_pixel([&](float u, float v, float x, float y) {
       widen(columns_, x, u);
       widen(rows_, y, v);
     });

@@ -1,0 +1,43 @@
+// shortshot/self_check.hpp: does the build at hand keep the promise of the same bits everywhere?
+#pragma once
+
+#include "config.hpp"
+#include "math.hpp"
+#include "simd.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// True if this translation unit's arithmetic rounds every operation by itself, as the same bits on every machine need.
+/// False where the compiler fuses a * b + c into one rounding (wherever the CPU can, GCC's default: compile with
+/// -ffp-contract=off), or regroups sums and ignores NaN (-ffast-math, which the library does not support). Descriptors
+/// are then still descriptors, but may differ in their last bits from those of other builds; under -ffast-math, NaN
+/// points may be taken for neighbours. All of a program's translation units that include the library need the flag.
+/// No allocation, reentrant.
+[[nodiscard]] inline bool self_check() noexcept {
+  // Volatile: what is computed while compiling says nothing about the program.
+  volatile float read_one_ulp_above = 1.00024414f;    // 1 + 2^-12: its square needs 25 bits
+  volatile float read_square_in_float = 1.00048828f;  // 1 + 2^-11
+  volatile float read_large = 12582912.0f;            // 1.5 * 2^23
+  volatile float read_small = 0.25f;
+  const simd::F32 a = simd::all(read_one_ulp_above);
+  const simd::F32 square = simd::all(read_square_in_float);
+  const simd::F32 large = simd::all(read_large);
+  const simd::F32 small = simd::all(read_small);
+  const float scalar_a = read_one_ulp_above;
+  const float scalar_large = read_large;
+
+  const bool unfused_lanes = !(simd::largest(simd::abs(a * a - square)) > 0.0f);
+  const bool unfused_scalar = scalar_a * scalar_a - read_square_in_float == 0.0f;
+  const bool ungrouped_lanes = !(simd::largest((small + large) - large) > 0.0f);
+  const bool ungrouped_scalar = (read_small + scalar_large) - scalar_large == 0.0f;
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+  const bool knows_nan = false;
+#else
+  const bool knows_nan = true;
+#endif
+  return unfused_lanes && unfused_scalar && ungrouped_lanes && ungrouped_scalar && knows_nan;
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
