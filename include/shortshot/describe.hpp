@@ -4,12 +4,12 @@
 // per part: signal, votes, scatter. Votes are rounded to integers before they are added up (fixed_point.hpp).
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
 
 #include "color.hpp"
+#include "color_source.hpp"
 #include "config.hpp"
 #include "descriptor.hpp"
 #include "fixed_point.hpp"
@@ -18,46 +18,11 @@
 #include "neighborhood.hpp"
 #include "simd.hpp"
 #include "status.hpp"
+#include "unroll.hpp"
 #include "voting.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
-
-/// Colours of a cloud's points by index, and the key point's own: what a ColorDistance compares. This source converts
-/// every neighbour's bytes when it is asked: no memory per point.
-template <class LabRule>
-struct RgbColors {
-  using Rule = LabRule;
-  CloudView cloud;
-  Lab reference;
-  [[nodiscard]] Status status() const noexcept { return has_colors(cloud) ? Status::ok : Status::missing_colors; }
-  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return to_lab<LabRule>(color(cloud, index)); }
-};
-
-/// The same from an array that holds each point's Lab, converted once for the whole cloud by convert_colors().
-struct LabColors {
-  const Lab* lab;  ///< one per point of the cloud, borrowed
-  Lab reference;
-  [[nodiscard]] Status status() const noexcept { return lab != nullptr ? Status::ok : Status::missing_colors; }
-  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return lab[index]; }
-};
-
-/// For descriptors without colour.
-struct NoColors {
-  [[nodiscard]] static Status status() noexcept { return Status::ok; }
-};
-
-/// Convert all colours of a cloud into `lab` (cloud.size elements of the caller's). Statuses: empty_cloud,
-/// bad_view, missing_colors.
-template <class LabRule>
-[[nodiscard]] inline Status convert_colors(const CloudView& cloud, Lab* lab) noexcept {
-  const Status usable = check(cloud);
-  if (usable != Status::ok) return usable;
-  if (!has_colors(cloud)) return Status::missing_colors;
-  for (std::size_t i = 0; i < cloud.size; ++i) lab[i] = to_lab<LabRule>(color(cloud, i));
-  return Status::ok;
-}
-
 namespace detail {
 
 /// Neighbours per chunk. The arrays of a chunk are all the stack that the kernel uses beyond a few registers.
@@ -225,16 +190,6 @@ template <int Size>
   for (int i = 0; i < whole; i += lanes) simd::store(values + i, simd::load(values + i) * simd::all(inverse));
   for (int i = whole; i < Size; ++i) values[i] = rest[i - whole] * inverse;
   return Status::ok;
-}
-
-/// Where a colour source names the rule it converts by, it must be the descriptor's.
-template <class D, class Colors>
-constexpr bool has_rule_of(const typename Colors::Rule*) noexcept {
-  return !D::needs_colors || std::is_same<typename Colors::Rule, typename D::LabRule>::value;
-}
-template <class D, class Colors>
-constexpr bool has_rule_of(...) noexcept {
-  return true;
 }
 
 }  // namespace detail

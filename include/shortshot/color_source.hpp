@@ -1,0 +1,65 @@
+// shortshot/color_source.hpp: where a descriptor's colours come from: the cloud's bytes, or an array converted before.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "cloud.hpp"
+#include "color.hpp"
+#include "config.hpp"
+#include "status.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// Colours of a cloud's points by index, and the key point's own: what a ColorDistance compares. This source converts
+/// every neighbour's bytes when it is asked: no memory per point.
+template <class LabRule>
+struct RgbColors {
+  using Rule = LabRule;
+  CloudView cloud;
+  Lab reference;
+  [[nodiscard]] Status status() const noexcept { return has_colors(cloud) ? Status::ok : Status::missing_colors; }
+  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return to_lab<LabRule>(color(cloud, index)); }
+};
+
+/// The same from an array that holds each point's Lab, converted once for the whole cloud by convert_colors().
+struct LabColors {
+  const Lab* lab;  ///< one per point of the cloud, borrowed
+  Lab reference;
+  [[nodiscard]] Status status() const noexcept { return lab != nullptr ? Status::ok : Status::missing_colors; }
+  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return lab[index]; }
+};
+
+/// For descriptors without colour.
+struct NoColors {
+  [[nodiscard]] static Status status() noexcept { return Status::ok; }
+};
+
+/// Convert all colours of a cloud into `lab` (cloud.size elements of the caller's). Statuses: empty_cloud, bad_view,
+/// missing_colors.
+template <class LabRule>
+[[nodiscard]] inline Status convert_colors(const CloudView& cloud, Lab* lab) noexcept {
+  const Status usable = check(cloud);
+  if (usable != Status::ok) return usable;
+  if (!has_colors(cloud)) return Status::missing_colors;
+  for (std::size_t i = 0; i < cloud.size; ++i) lab[i] = to_lab<LabRule>(color(cloud, i));
+  return Status::ok;
+}
+
+namespace detail {
+
+/// Where a colour source names the rule it converts by, it must be the descriptor's.
+template <class D, class Colors>
+constexpr bool has_rule_of(const typename Colors::Rule*) noexcept {
+  return !D::needs_colors || std::is_same<typename Colors::Rule, typename D::LabRule>::value;
+}
+template <class D, class Colors>
+constexpr bool has_rule_of(...) noexcept {
+  return true;
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
