@@ -104,6 +104,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 }
 /// a where m, else zero.
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {_mm256_and_ps(m.v, a.v)}; }
+[[nodiscard]] inline bool any(Mask m) noexcept { return _mm256_movemask_ps(m.v) != 0; }
+[[nodiscard]] inline bool every(Mask m) noexcept { return _mm256_movemask_ps(m.v) == 0xFF; }
 /// 1 where m, else zero.
 [[nodiscard]] inline I32 ones(Mask m) noexcept { return {_mm256_srli_epi32(_mm256_castps_si256(m.v), 31)}; }
 
@@ -181,6 +183,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
 }
 /// a where m, else zero.
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {_mm_and_ps(m.v, a.v)}; }
+[[nodiscard]] inline bool any(Mask m) noexcept { return _mm_movemask_ps(m.v) != 0; }
+[[nodiscard]] inline bool every(Mask m) noexcept { return _mm_movemask_ps(m.v) == 0xF; }
 /// 1 where m, else zero.
 [[nodiscard]] inline I32 ones(Mask m) noexcept { return {_mm_srli_epi32(_mm_castps_si128(m.v), 31)}; }
 
@@ -256,6 +260,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept {
   return {vreinterpretq_f32_u32(vandq_u32(m.v, vreinterpretq_u32_f32(a.v)))};
 }
+[[nodiscard]] inline bool any(Mask m) noexcept { return vmaxvq_u32(m.v) != 0; }
+[[nodiscard]] inline bool every(Mask m) noexcept { return vminvq_u32(m.v) != 0; }
 /// 1 where m, else zero.
 [[nodiscard]] inline I32 ones(Mask m) noexcept { return {vreinterpretq_s32_u32(vshrq_n_u32(m.v, 31))}; }
 
@@ -334,6 +340,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 [[nodiscard]] inline F32 negate(Mask m, F32 a) noexcept { return {m.v ? -a.v : a.v}; }
 /// a where m, else zero.
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {m.v ? a.v : 0.0f}; }
+[[nodiscard]] inline bool any(Mask m) noexcept { return m.v; }
+[[nodiscard]] inline bool every(Mask m) noexcept { return m.v; }
 /// 1 where m, else zero.
 [[nodiscard]] inline I32 ones(Mask m) noexcept { return {m.v ? 1 : 0}; }
 
@@ -1006,7 +1014,7 @@ struct LabLanes {
 };
 
 /// CSHOT's colour distance in [0, 1]: (|dL| / 100 + (|da| / 120 + |db| / 120) / 2) / 3.
-[[nodiscard]] inline simd::F32 color_distance(const LabLanes& p, const LabLanes& q) noexcept {
+[[nodiscard]] inline simd::F32 color_distances(const LabLanes& p, const LabLanes& q) noexcept {
   using simd::all;
   const simd::F32 chroma = simd::abs(p.a - q.a) + simd::abs(p.b - q.b);
   const simd::F32 distance = simd::abs(p.L - q.L) * all(1.0f / 300.0f) + chroma * all(1.0f / 720.0f);
@@ -1015,7 +1023,7 @@ struct LabLanes {
 
 [[nodiscard]] inline float color_distance(const Lab& p, const Lab& q) noexcept {
   const auto lanes = [](const Lab& c) { return LabLanes{simd::all(c.L), simd::all(c.a), simd::all(c.b)}; };
-  return simd::largest(color_distance(lanes(p), lanes(q)));
+  return simd::largest(color_distances(lanes(p), lanes(q)));
 }
 
 }  // namespace SHORTSHOT_ISA
@@ -1570,6 +1578,52 @@ inline void offer(Neighborhood& out, const Point& p, std::uint32_t index, const 
   ++out.found;
 }
 
+/// The same rule for simd::lanes points at once, from arrays of coordinates and indices.
+template <class Index>
+inline void offer_lanes(Neighborhood& out, const float* x, const float* y, const float* z, const Index* index,
+                        const Point& center, float radius_squared) noexcept {
+  const simd::F32 dx = simd::load(x) - simd::all(center.x);
+  const simd::F32 dy = simd::load(y) - simd::all(center.y);
+  const simd::F32 dz = simd::load(z) - simd::all(center.z);
+  const simd::F32 d2 = (dx * dx + dy * dy) + dz * dz;
+  const simd::Mask inside = d2 < simd::all(radius_squared);
+  if (!any(inside)) return;
+  if (out.capacity - out.size < simd::lanes) {  // no room for a whole register: one by one
+    for (std::size_t k = 0; k < simd::lanes; ++k) offer(out, {x[k], y[k], z[k]}, index[k], center, radius_squared);
+    return;
+  }
+  float* const out_dx = out.dx + out.size;
+  float* const out_dy = out.dy + out.size;
+  float* const out_dz = out.dz + out.size;
+  float* const out_d2 = out.d2 + out.size;
+  std::uint32_t* const out_index = out.index + out.size;
+  std::uint32_t added = 0;
+  if (every(inside)) {  // most: neighbours come in runs
+    simd::store(out_dx, dx);
+    simd::store(out_dy, dy);
+    simd::store(out_dz, dz);
+    simd::store(out_d2, d2);
+    for (std::size_t k = 0; k < simd::lanes; ++k) out_index[k] = index[k];
+    added = static_cast<std::uint32_t>(simd::lanes);
+  } else {  // no branches: each is written, and the next one overwrites it unless it is inside
+    float values[4][simd::lanes];
+    simd::store(values[0], dx);
+    simd::store(values[1], dy);
+    simd::store(values[2], dz);
+    simd::store(values[3], d2);
+    detail::unroll<static_cast<int>(simd::lanes)>([&](auto k) {
+      out_dx[added] = values[0][k];
+      out_dy[added] = values[1][k];
+      out_dz[added] = values[2][k];
+      out_d2[added] = values[3][k];
+      out_index[added] = index[k];
+      added += values[3][k] < radius_squared ? 1u : 0u;
+    });
+  }
+  out.size += added;
+  out.found += added;
+}
+
 /// To be called by a search before it offers the first point.
 inline void clear(Neighborhood& out) noexcept {
   out.size = 0;
@@ -1997,7 +2051,7 @@ inline void measure_colors(const Neighborhood& n, const Colors& colors, const Ch
   const LabLanes reference{simd::all(key.L), simd::all(key.a), simd::all(key.b)};
   for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
     const LabLanes color{simd::load(lightness + i), simd::load(green_red + i), simd::load(blue_yellow + i)};
-    simd::store(signal + i, color_distance(color, reference));
+    simd::store(signal + i, color_distances(color, reference));
   }
 }
 
@@ -2438,8 +2492,9 @@ template <class Index>
 namespace shortshot {
 
 /// Memory of a GridIndex, borrowed from the caller: `point_capacity` elements of `order`, `cell_capacity` of
-/// `cell_end`. `xyz`, if not null, has 3 * point_capacity floats and receives a sorted copy of the points: runs of
-/// neighbours then lie side by side in memory. Without it every point is read through the view.
+/// `cell_end`. `xyz`, if not null, has 3 * point_capacity floats and receives the sorted points' coordinates, all x,
+/// then all y, then all z: runs of neighbours are then tested in lanes. Without it every point is read through the
+/// view.
 template <class Index>
 struct GridMemory {
   Index* order;
@@ -2524,13 +2579,16 @@ class Grid {
 
   void offer_run(const Contents& contents, std::size_t begin, std::size_t end, const Point& center, Radius radius,
                  Neighborhood& out) const noexcept {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t index = contents.order[i];
-      const Point p = contents.xyz == nullptr
-                          ? point(cloud_, index)
-                          : Point{contents.xyz[3 * i], contents.xyz[3 * i + 1], contents.xyz[3 * i + 2]};
-      offer(out, p, index, center, radius.squared);
+    std::size_t i = begin;
+    if (contents.xyz != nullptr) {
+      const float* x = contents.xyz;
+      const float* y = x + points_;
+      const float* z = y + points_;
+      for (; i + simd::lanes <= end; i += simd::lanes) {
+        offer_lanes(out, x + i, y + i, z + i, contents.order + i, center, radius.squared);
+      }
     }
+    for (; i < end; ++i) offer(out, point(cloud_, contents.order[i]), contents.order[i], center, radius.squared);
   }
 
   /// Counting sort: count per cell, turn counts into ends of the cells before, and let each placed point move its
@@ -2549,9 +2607,9 @@ class Grid {
       const std::size_t place = memory.cell_end[box_.cell_of(p)]++;
       memory.order[place] = static_cast<Index>(index);
       if (memory.xyz == nullptr) return;
-      memory.xyz[3 * place] = p.x;
-      memory.xyz[3 * place + 1] = p.y;
-      memory.xyz[3 * place + 2] = p.z;
+      memory.xyz[place] = p.x;
+      memory.xyz[points_ + place] = p.y;
+      memory.xyz[2 * points_ + place] = p.z;
     });
   }
 

@@ -120,7 +120,7 @@ struct LabLanes {
 };
 
 /// CSHOT's colour distance in [0, 1]: (|dL| / 100 + (|da| / 120 + |db| / 120) / 2) / 3.
-[[nodiscard]] inline simd::F32 color_distance(const LabLanes& p, const LabLanes& q) noexcept {
+[[nodiscard]] inline simd::F32 color_distances(const LabLanes& p, const LabLanes& q) noexcept {
   using simd::all;
   const simd::F32 chroma = simd::abs(p.a - q.a) + simd::abs(p.b - q.b);
   const simd::F32 distance = simd::abs(p.L - q.L) * all(1.0f / 300.0f) + chroma * all(1.0f / 720.0f);
@@ -129,7 +129,7 @@ struct LabLanes {
 
 [[nodiscard]] inline float color_distance(const Lab& p, const Lab& q) noexcept {
   const auto lanes = [](const Lab& c) { return LabLanes{simd::all(c.L), simd::all(c.a), simd::all(c.b)}; };
-  return simd::largest(color_distance(lanes(p), lanes(q)));
+  return simd::largest(color_distances(lanes(p), lanes(q)));
 }
 
 }  // namespace SHORTSHOT_ISA

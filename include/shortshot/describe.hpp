@@ -86,7 +86,7 @@ inline void measure_colors(const Neighborhood& n, const Colors& colors, const Ch
   const LabLanes reference{simd::all(key.L), simd::all(key.a), simd::all(key.b)};
   for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
     const LabLanes color{simd::load(lightness + i), simd::load(green_red + i), simd::load(blue_yellow + i)};
-    simd::store(signal + i, color_distance(color, reference));
+    simd::store(signal + i, color_distances(color, reference));
   }
 }
 

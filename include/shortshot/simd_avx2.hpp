@@ -58,6 +58,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 }
 /// a where m, else zero.
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {_mm256_and_ps(m.v, a.v)}; }
+[[nodiscard]] inline bool any(Mask m) noexcept { return _mm256_movemask_ps(m.v) != 0; }
+[[nodiscard]] inline bool every(Mask m) noexcept { return _mm256_movemask_ps(m.v) == 0xFF; }
 /// 1 where m, else zero.
 [[nodiscard]] inline I32 ones(Mask m) noexcept { return {_mm256_srli_epi32(_mm256_castps_si256(m.v), 31)}; }
 

@@ -60,6 +60,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept {
   return {vreinterpretq_f32_u32(vandq_u32(m.v, vreinterpretq_u32_f32(a.v)))};
 }
+[[nodiscard]] inline bool any(Mask m) noexcept { return vmaxvq_u32(m.v) != 0; }
+[[nodiscard]] inline bool every(Mask m) noexcept { return vminvq_u32(m.v) != 0; }
 /// 1 where m, else zero.
 [[nodiscard]] inline I32 ones(Mask m) noexcept { return {vreinterpretq_s32_u32(vshrq_n_u32(m.v, 31))}; }
 

@@ -64,6 +64,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 [[nodiscard]] inline F32 negate(Mask m, F32 a) noexcept { return {m.v ? -a.v : a.v}; }
 /// a where m, else zero.
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {m.v ? a.v : 0.0f}; }
+[[nodiscard]] inline bool any(Mask m) noexcept { return m.v; }
+[[nodiscard]] inline bool every(Mask m) noexcept { return m.v; }
 /// 1 where m, else zero.
 [[nodiscard]] inline I32 ones(Mask m) noexcept { return {m.v ? 1 : 0}; }
 

@@ -60,6 +60,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
 }
 /// a where m, else zero.
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {_mm_and_ps(m.v, a.v)}; }
+[[nodiscard]] inline bool any(Mask m) noexcept { return _mm_movemask_ps(m.v) != 0; }
+[[nodiscard]] inline bool every(Mask m) noexcept { return _mm_movemask_ps(m.v) == 0xF; }
 /// 1 where m, else zero.
 [[nodiscard]] inline I32 ones(Mask m) noexcept { return {_mm_srli_epi32(_mm_castps_si128(m.v), 31)}; }
 

@@ -10,14 +10,16 @@
 #include "../config.hpp"
 #include "../math.hpp"
 #include "../neighborhood.hpp"
+#include "../simd.hpp"
 #include "../status.hpp"
 #include "grid_box.hpp"
 
 namespace shortshot {
 
 /// Memory of a GridIndex, borrowed from the caller: `point_capacity` elements of `order`, `cell_capacity` of
-/// `cell_end`. `xyz`, if not null, has 3 * point_capacity floats and receives a sorted copy of the points: runs of
-/// neighbours then lie side by side in memory. Without it every point is read through the view.
+/// `cell_end`. `xyz`, if not null, has 3 * point_capacity floats and receives the sorted points' coordinates, all x,
+/// then all y, then all z: runs of neighbours are then tested in lanes. Without it every point is read through the
+/// view.
 template <class Index>
 struct GridMemory {
   Index* order;
@@ -102,13 +104,16 @@ class Grid {
 
   void offer_run(const Contents& contents, std::size_t begin, std::size_t end, const Point& center, Radius radius,
                  Neighborhood& out) const noexcept {
-    for (std::size_t i = begin; i < end; ++i) {
-      const std::uint32_t index = contents.order[i];
-      const Point p = contents.xyz == nullptr
-                          ? point(cloud_, index)
-                          : Point{contents.xyz[3 * i], contents.xyz[3 * i + 1], contents.xyz[3 * i + 2]};
-      offer(out, p, index, center, radius.squared);
+    std::size_t i = begin;
+    if (contents.xyz != nullptr) {
+      const float* x = contents.xyz;
+      const float* y = x + points_;
+      const float* z = y + points_;
+      for (; i + simd::lanes <= end; i += simd::lanes) {
+        offer_lanes(out, x + i, y + i, z + i, contents.order + i, center, radius.squared);
+      }
     }
+    for (; i < end; ++i) offer(out, point(cloud_, contents.order[i]), contents.order[i], center, radius.squared);
   }
 
   /// Counting sort: count per cell, turn counts into ends of the cells before, and let each placed point move its
@@ -127,9 +132,9 @@ class Grid {
       const std::size_t place = memory.cell_end[box_.cell_of(p)]++;
       memory.order[place] = static_cast<Index>(index);
       if (memory.xyz == nullptr) return;
-      memory.xyz[3 * place] = p.x;
-      memory.xyz[3 * place + 1] = p.y;
-      memory.xyz[3 * place + 2] = p.z;
+      memory.xyz[place] = p.x;
+      memory.xyz[points_ + place] = p.y;
+      memory.xyz[2 * points_ + place] = p.z;
     });
   }
 
