@@ -1345,6 +1345,7 @@ inline namespace SHORTSHOT_ISA {
 struct Occupancy {
   static constexpr int bins = 1;
   static constexpr bool needs_colors = false;
+  using Rule = void;  // no colours, no rule to convert them
 };
 
 /// Signal of CSHOT and SCSH: the CIELAB distance between a point's colour and the key point's, over `Bins` bins of
@@ -1387,16 +1388,8 @@ struct LabRuleOf {
 };
 template <class Signal, class... Others>
 struct LabRuleOf<Signal, Others...> {
+  using Mine = typename Signal::Rule;
   using Next = typename LabRuleOf<Others...>::type;
-  template <class S, bool = S::needs_colors>
-  struct Own {
-    using type = void;
-  };
-  template <class S>
-  struct Own<S, true> {
-    using type = typename S::Rule;
-  };
-  using Mine = typename Own<Signal>::type;
   static_assert(std::is_void<Mine>::value || std::is_void<Next>::value || std::is_same<Mine, Next>::value,
                 "Descriptor supports one colour conversion for all its parts");
   using type = std::conditional_t<std::is_void<Mine>::value, Next, Mine>;
@@ -1638,7 +1631,8 @@ inline void clear(Neighborhood& out) noexcept {
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
-// shortshot/ranking.hpp: members of a neighbourhood by their rank in distance, without sorting it.
+// shortshot/ranking.hpp: the members of a neighbourhood that make its frame, and their rank in distance without
+// sorting.
 //
 // PCL sorts every neighbourhood because a tied vote over an axis' sign looks at the five members in the middle. Ties
 // are rare (2 to 5 key points in a hundred), so the order is asked for only then, and found by bisection in place.
@@ -1650,6 +1644,13 @@ namespace detail {
 /// A member makes a frame: it lies strictly inside the frame's radius and not at the key point itself.
 [[nodiscard]] inline bool is_member(const Neighborhood& n, std::uint32_t i, Radius radius) noexcept {
   return n.d2[i] < radius.squared && (n.dx[i] != 0.0f || n.dy[i] != 0.0f || n.dz[i] != 0.0f);
+}
+
+/// The same for a register of neighbours.
+[[nodiscard]] inline simd::Mask are_members(const Offsets& v, Radius radius) noexcept {
+  const simd::F32 zero = simd::all(0.0f);
+  const simd::Mask apart = (simd::abs(v.dx) > zero) | (simd::abs(v.dy) > zero) | (simd::abs(v.dz) > zero);
+  return apart & (v.d2 < simd::all(radius.squared));
 }
 
 /// A place in the order of members: by squared distance, then by index in the cloud (below all of them: -1).
@@ -1824,13 +1825,6 @@ inline constexpr int min_frame_neighbors = 5;
 }
 
 namespace detail {
-
-/// The members of a neighbourhood make its frame: strictly inside the frame's radius and not at the key point.
-[[nodiscard]] inline simd::Mask are_members(const Offsets& v, Radius radius) noexcept {
-  const simd::F32 zero = simd::all(0.0f);
-  const simd::Mask apart = (simd::abs(v.dx) > zero) | (simd::abs(v.dy) > zero) | (simd::abs(v.dz) > zero);
-  return apart & (v.d2 < simd::all(radius.squared));
-}
 
 inline void negate(float (&axis)[3]) noexcept {
   for (float& component : axis) component = 0.0f - component;
@@ -2197,6 +2191,7 @@ template <class D, class Colors>
 }  // namespace shortshot
 
 namespace shortshot {
+
 /// A place to describe: a point of the cloud, or any other position (a voxel's centroid) with its colour. The colour is
 /// what colour distances refer to; descriptors without colour ignore it. Trivial type.
 struct KeyPoint {
@@ -2252,7 +2247,7 @@ template <class D, class Colors>
   const float towards[3] = {eye ? eye->x - center.x : 0.0f, eye ? eye->y - center.y : 0.0f,
                             eye ? eye->z - center.z : 0.0f};
   Frame frame;
-  const Status status = estimate_frame(n, support.frame_radius, frame, eye ? towards : nullptr);
+  const Status status = estimate_frame(n, support.frame_radius, frame, towards);  // all zeros: by vote
   return status == Status::ok ? describe<D>(n, colors, frame, support.radius, out) : status;
 }
 
@@ -2265,6 +2260,20 @@ template <class D>
   } else {
     return NoColors{};
   }
+}
+
+/// Everything up to the gathered neighbourhood; finish(neighborhood, colors) makes the descriptor of it.
+template <class D, class Search, std::size_t MaxNeighbors, class Finish>
+[[nodiscard]] inline Status describe_key(const CloudView& cloud, const Search& search, const KeyPoint& key,
+                                         const Support& support, Workspace<MaxNeighbors>& workspace, float* out,
+                                         const Finish& finish) noexcept {
+  std::memset(out, 0, D::size_bytes);
+  Status status = check<D>(cloud, search, support);
+  if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
+  if (status != Status::ok) return status;
+  Neighborhood n = neighborhood_in(workspace);
+  status = gather(search, key.position, support, n);
+  return status == Status::ok ? finish(n, rgb_colors<D>(cloud, key.color)) : status;
 }
 
 }  // namespace detail
@@ -2284,14 +2293,9 @@ template <class D, class Search, std::size_t MaxNeighbors>
 [[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
                                         const Support& support, Workspace<MaxNeighbors>& workspace,
                                         float* out) noexcept {
-  std::memset(out, 0, D::size_bytes);
-  Status status = check<D>(cloud, search, support);
-  if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
-  if (status != Status::ok) return status;
-  Neighborhood n = neighborhood_in(workspace);
-  status = detail::gather(search, key.position, support, n);
-  if (status != Status::ok) return status;
-  return detail::describe_gathered<D>(n, detail::rgb_colors<D>(cloud, key.color), key.position, support, out);
+  return detail::describe_key<D>(cloud, search, key, support, workspace, out, [&](const auto& n, const auto& colors) {
+    return detail::describe_gathered<D>(n, colors, key.position, support, out);
+  });
 }
 
 /// The same in a frame that the caller knows; bad_frame if it is not orthonormal.
@@ -2299,14 +2303,9 @@ template <class D, class Search, std::size_t MaxNeighbors>
 [[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
                                         const Frame& frame, Radius radius, Workspace<MaxNeighbors>& workspace,
                                         float* out) noexcept {
-  std::memset(out, 0, D::size_bytes);
-  Status status = check<D>(cloud, search, radius);
-  if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
-  if (status != Status::ok) return status;
-  Neighborhood n = neighborhood_in(workspace);
-  status = search.gather(key.position, radius, n);
-  if (status != Status::ok) return status;
-  return describe<D>(n, detail::rgb_colors<D>(cloud, key.color), frame, radius, out);
+  return detail::describe_key<D>(cloud, search, key, radius, workspace, out, [&](const auto& n, const auto& colors) {
+    return describe<D>(n, colors, frame, radius, out);
+  });
 }
 
 /// The same for the point with an index, in SHOT's own frame; bad_keypoint if there is none.
@@ -2474,10 +2473,13 @@ template <class Index>
       if (!trim(cloud, valid, axis, scratch, extent)) break;
     }
   }
-  while (!count_cells(extent, cell_size, capacity, box.dims) && cell_size < 1e37f) cell_size *= 1.25f;
+  bool fits = count_cells(extent, cell_size, capacity, box.dims);
+  while (!fits && cell_size < 1e37f) {
+    cell_size *= 1.25f;
+    fits = count_cells(extent, cell_size, capacity, box.dims);
+  }
 
   box.cells_per_metre = 1.0f / cell_size;
-  const bool fits = count_cells(extent, cell_size, capacity, box.dims);
   for (int axis = 0; axis < 3; ++axis) {
     box.low[axis] = extent.low[axis];
     if (!fits) box.dims[axis] = 1;  // an extent of all of float's range
@@ -2580,15 +2582,17 @@ class Grid {
   void offer_run(const Contents& contents, std::size_t begin, std::size_t end, const Point& center, Radius radius,
                  Neighborhood& out) const noexcept {
     std::size_t i = begin;
-    if (contents.xyz != nullptr) {
-      const float* x = contents.xyz;
-      const float* y = x + points_;
-      const float* z = y + points_;
-      for (; i + simd::lanes <= end; i += simd::lanes) {
-        offer_lanes(out, x + i, y + i, z + i, contents.order + i, center, radius.squared);
-      }
+    if (contents.xyz == nullptr) {
+      for (; i < end; ++i) offer(out, point(cloud_, contents.order[i]), contents.order[i], center, radius.squared);
+      return;
     }
-    for (; i < end; ++i) offer(out, point(cloud_, contents.order[i]), contents.order[i], center, radius.squared);
+    const float* x = contents.xyz;
+    const float* y = x + points_;
+    const float* z = y + points_;
+    for (; i + simd::lanes <= end; i += simd::lanes) {
+      offer_lanes(out, x + i, y + i, z + i, contents.order + i, center, radius.squared);
+    }
+    for (; i < end; ++i) offer(out, {x[i], y[i], z[i]}, contents.order[i], center, radius.squared);
   }
 
   /// Counting sort: count per cell, turn counts into ends of the cells before, and let each placed point move its
@@ -3014,8 +3018,7 @@ template <class D, class Search, class KeyAt>
   if (usable != Status::ok) return usable;
   if constexpr (D::needs_colors) {
     out.scratch.lab.resize(cloud.size);
-    const Status converted = convert_colors<typename D::LabRule>(cloud, out.scratch.lab.data());
-    if (converted != Status::ok) return converted;
+    static_cast<void>(convert_colors<typename D::LabRule>(cloud, out.scratch.lab.data()));  // checked above
   }
   const std::size_t blocks = (count + block_size - 1) / block_size;
   const std::size_t workers = std::max<std::size_t>(1, std::min<std::size_t>(threads, blocks));

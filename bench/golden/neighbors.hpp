@@ -25,9 +25,7 @@ class Neighbors {
   }
 
  private:
-  void reserve(std::size_t neighbors) {
-    constexpr std::size_t step = 64;  // whole vector registers, whatever the library reads at once
-    const std::size_t capacity = (neighbors / step + 1) * step;
+  void reserve(std::size_t capacity) {
     floats_.resize(4 * capacity);
     indices_.resize(capacity);
     float* p = floats_.data();

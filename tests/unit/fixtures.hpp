@@ -122,6 +122,19 @@ std::vector<std::uint32_t> found_by(const Search& search, const ss::Point& cente
   return indices;
 }
 
+/// Every point of the view is that of the cloud, and its colour too, where it has colours.
+inline void require_same_points(const ss::CloudView& view, const TestCloud& cloud, bool colors) {
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const ss::Point p = ss::point(view, i);
+    const ss::Point q = cloud.at(i);
+    REQUIRE((p.x == q.x && p.y == q.y && p.z == q.z));
+    if (!colors) continue;
+    const ss::Rgb c = ss::color(view, i);
+    const ss::Rgb d = cloud.color_at(i);
+    REQUIRE((c.r == d.r && c.g == d.g && c.b == d.b));
+  }
+}
+
 /// A search that cannot be asked says so, in status() and to everyone who asks, and finds nothing.
 template <class Search>
 bool refuses(const Search& search, const ss::Point& center, ss::Radius radius, ss::Status expected) {

@@ -27,15 +27,7 @@ void check_reads_as_sample(const ss::CloudView& view, bool colors = true) {
   REQUIRE(view.size == count);
   REQUIRE(ss::has_colors(view) == colors);
   CHECK(view.width * view.height == count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const ss::Point p = ss::point(view, i);
-    const ss::Point q = cloud.at(i);
-    REQUIRE((p.x == q.x && p.y == q.y && p.z == q.z));
-    if (!colors) continue;
-    const ss::Rgb c = ss::color(view, i);
-    const ss::Rgb d = cloud.color_at(i);
-    REQUIRE((c.r == d.r && c.g == d.g && c.b == d.b));
-  }
+  require_same_points(view, cloud, colors);
   static ss::Workspace<count> workspace;
   const auto describe = [&](const ss::CloudView& v, auto descriptor) {
     using D = decltype(descriptor);

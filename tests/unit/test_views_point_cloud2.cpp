@@ -80,15 +80,7 @@ void check_reads_as_sample(const Message& m, bool colors = true) {
   CHECK(view.width == m.width);
   CHECK(view.height == m.height);
   CHECK(view.points.x == m.data.data() + 7);  // nothing is copied
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const ss::Point p = ss::point(view, i);
-    const ss::Point q = cloud.at(i);
-    REQUIRE((p.x == q.x && p.y == q.y && p.z == q.z));
-    if (!colors) continue;
-    const ss::Rgb c = ss::color(view, i);
-    const ss::Rgb d = cloud.color_at(i);
-    REQUIRE((c.r == d.r && c.g == d.g && c.b == d.b));
-  }
+  require_same_points(view, cloud, colors);
   std::vector<float> out = garbage<ss::Ssh32>(), expected = garbage<ss::Ssh32>();
   static ss::Workspace<count> workspace;
   REQUIRE(ss::describe_at<ss::Ssh32>(view, ss::BruteSearch{view}, 3, 1.0f, workspace, out.data()) == Status::ok);

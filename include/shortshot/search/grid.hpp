@@ -8,7 +8,6 @@
 
 #include "../cloud.hpp"
 #include "../config.hpp"
-#include "../math.hpp"
 #include "../neighborhood.hpp"
 #include "../simd.hpp"
 #include "../status.hpp"
@@ -105,15 +104,17 @@ class Grid {
   void offer_run(const Contents& contents, std::size_t begin, std::size_t end, const Point& center, Radius radius,
                  Neighborhood& out) const noexcept {
     std::size_t i = begin;
-    if (contents.xyz != nullptr) {
-      const float* x = contents.xyz;
-      const float* y = x + points_;
-      const float* z = y + points_;
-      for (; i + simd::lanes <= end; i += simd::lanes) {
-        offer_lanes(out, x + i, y + i, z + i, contents.order + i, center, radius.squared);
-      }
+    if (contents.xyz == nullptr) {
+      for (; i < end; ++i) offer(out, point(cloud_, contents.order[i]), contents.order[i], center, radius.squared);
+      return;
     }
-    for (; i < end; ++i) offer(out, point(cloud_, contents.order[i]), contents.order[i], center, radius.squared);
+    const float* x = contents.xyz;
+    const float* y = x + points_;
+    const float* z = y + points_;
+    for (; i + simd::lanes <= end; i += simd::lanes) {
+      offer_lanes(out, x + i, y + i, z + i, contents.order + i, center, radius.squared);
+    }
+    for (; i < end; ++i) offer(out, {x[i], y[i], z[i]}, contents.order[i], center, radius.squared);
   }
 
   /// Counting sort: count per cell, turn counts into ends of the cells before, and let each placed point move its

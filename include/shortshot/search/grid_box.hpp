@@ -119,10 +119,13 @@ template <class Index>
       if (!trim(cloud, valid, axis, scratch, extent)) break;
     }
   }
-  while (!count_cells(extent, cell_size, capacity, box.dims) && cell_size < 1e37f) cell_size *= 1.25f;
+  bool fits = count_cells(extent, cell_size, capacity, box.dims);
+  while (!fits && cell_size < 1e37f) {
+    cell_size *= 1.25f;
+    fits = count_cells(extent, cell_size, capacity, box.dims);
+  }
 
   box.cells_per_metre = 1.0f / cell_size;
-  const bool fits = count_cells(extent, cell_size, capacity, box.dims);
   for (int axis = 0; axis < 3; ++axis) {
     box.low[axis] = extent.low[axis];
     if (!fits) box.dims[axis] = 1;  // an extent of all of float's range
