@@ -92,7 +92,9 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm256_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm256_sqrt_ps(a.v)}; }
-[[nodiscard]] inline F32 abs(F32 a) noexcept { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
+[[nodiscard]] inline F32 abs(F32 a) noexcept {
+  return {_mm256_and_ps(a.v, _mm256_castsi256_ps(_mm256_set1_epi32(0x7FFFFFFF)))};
+}
 [[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {_mm256_min_ps(a.v, b.v)}; }
 [[nodiscard]] inline F32 max(F32 a, F32 b) noexcept { return {_mm256_max_ps(a.v, b.v)}; }
 
@@ -121,6 +123,64 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 
 /// To the nearest integer, ties to even (the default rounding mode).
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm256_cvtps_epi32(a.v)}; }
+
+/// Lanes of integers.
+[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept {
+  return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))};
+}
+[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {_mm256_set1_epi32(value)}; }
+[[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {_mm256_sub_epi32(a.v, b.v)}; }
+[[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {_mm256_and_si256(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept {
+  return {_mm256_castsi256_ps(_mm256_cmpeq_epi32(a.v, b.v))};
+}
+[[nodiscard]] inline Mask operator>(I32 a, I32 b) noexcept {
+  return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))};
+}
+[[nodiscard]] inline I32 shift_left(I32 a, int count) noexcept {
+  return {_mm256_sll_epi32(a.v, _mm_cvtsi32_si128(count))};
+}
+/// Towards minus infinity.
+[[nodiscard]] inline I32 shift_right(I32 a, int count) noexcept {
+  return {_mm256_sra_epi32(a.v, _mm_cvtsi32_si128(count))};
+}
+/// For numbers from -1 to 2^15 - 1.
+[[nodiscard]] inline I32 small_min(I32 a, I32 b) noexcept { return {_mm256_min_epi16(a.v, b.v)}; }
+[[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {_mm256_max_epi16(a.v, b.v)}; }
+/// For a from -2^15, b from 0, to 2^15 - 1.
+[[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {_mm256_madd_epi16(a.v, b.v)}; }
+[[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {_mm256_castsi256_ps(_mm256_srai_epi32(a.v, 31))}; }
+/// -1 where m, else 1.
+[[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept {
+  return {_mm256_or_si256(_mm256_castps_si256(m.v), _mm256_set1_epi32(1))};
+}
+/// ~a where m, else a.
+[[nodiscard]] inline I32 invert(Mask m, I32 a) noexcept { return {_mm256_xor_si256(_mm256_castps_si256(m.v), a.v)}; }
+/// a where m, else zero.
+[[nodiscard]] inline I32 keep(Mask m, I32 a) noexcept { return {_mm256_and_si256(_mm256_castps_si256(m.v), a.v)}; }
+/// Zero where m, else a.
+[[nodiscard]] inline I32 drop(Mask m, I32 a) noexcept { return {_mm256_andnot_si256(_mm256_castps_si256(m.v), a.v)}; }
+/// -a where `sign` has its sign bit set, else a.
+[[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept {
+  return {_mm256_xor_ps(a.v, _mm256_and_ps(sign.v, _mm256_set1_ps(-0.0f)))};
+}
+
+/// The three floats at base + 3 * index[k], for all lanes.
+[[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
+                                                F32& c) noexcept {
+  const auto pair = [&](std::size_t k, std::size_t from) {  // (p[from], p[from + 1]) of lanes k and k + 1
+    const auto* const low = reinterpret_cast<const __m64*>(base + 3 * static_cast<std::size_t>(index[k]) + from);
+    const auto* const high = reinterpret_cast<const __m64*>(base + 3 * static_cast<std::size_t>(index[k + 1]) + from);
+    return _mm_loadh_pi(_mm_loadl_pi(_mm_setzero_ps(), low), high);
+  };
+  // Lanes 0, 1, 4, 5 and 2, 3, 6, 7, so that one shuffle in both halves brings them into order.
+  const auto pairs = [&](std::size_t k, std::size_t from) { return _mm256_set_m128(pair(k + 4, from), pair(k, from)); };
+  const __m256 ab[2] = {pairs(0, 0), pairs(2, 0)};
+  const __m256 bc[2] = {pairs(0, 1), pairs(2, 1)};
+  a = {_mm256_shuffle_ps(ab[0], ab[1], _MM_SHUFFLE(2, 0, 2, 0))};
+  b = {_mm256_shuffle_ps(bc[0], bc[1], _MM_SHUFFLE(2, 0, 2, 0))};
+  c = {_mm256_shuffle_ps(bc[0], bc[1], _MM_SHUFFLE(3, 1, 3, 1))};
+}
 
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA
@@ -169,7 +229,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm_sqrt_ps(a.v)}; }
-[[nodiscard]] inline F32 abs(F32 a) noexcept { return {_mm_andnot_ps(_mm_set1_ps(-0.0f), a.v)}; }
+[[nodiscard]] inline F32 abs(F32 a) noexcept { return {_mm_and_ps(a.v, _mm_castsi128_ps(_mm_set1_epi32(0x7FFFFFFF)))}; }
 [[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {_mm_min_ps(a.v, b.v)}; }
 [[nodiscard]] inline F32 max(F32 a, F32 b) noexcept { return {_mm_max_ps(a.v, b.v)}; }
 
@@ -198,6 +258,58 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
 
 /// To the nearest integer, ties to even (the default rounding mode).
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm_cvtps_epi32(a.v)}; }
+
+/// Lanes of integers.
+[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept {
+  return {_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))};
+}
+[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {_mm_set1_epi32(value)}; }
+[[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {_mm_sub_epi32(a.v, b.v)}; }
+[[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {_mm_and_si128(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {_mm_castsi128_ps(_mm_cmpeq_epi32(a.v, b.v))}; }
+[[nodiscard]] inline Mask operator>(I32 a, I32 b) noexcept { return {_mm_castsi128_ps(_mm_cmpgt_epi32(a.v, b.v))}; }
+[[nodiscard]] inline I32 shift_left(I32 a, int count) noexcept {
+  return {_mm_sll_epi32(a.v, _mm_cvtsi32_si128(count))};
+}
+/// Towards minus infinity.
+[[nodiscard]] inline I32 shift_right(I32 a, int count) noexcept {
+  return {_mm_sra_epi32(a.v, _mm_cvtsi32_si128(count))};
+}
+/// For numbers from -1 to 2^15 - 1.
+[[nodiscard]] inline I32 small_min(I32 a, I32 b) noexcept { return {_mm_min_epi16(a.v, b.v)}; }
+[[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {_mm_max_epi16(a.v, b.v)}; }
+/// For a from -2^15, b from 0, to 2^15 - 1.
+[[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {_mm_madd_epi16(a.v, b.v)}; }
+[[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {_mm_castsi128_ps(_mm_srai_epi32(a.v, 31))}; }
+/// -1 where m, else 1.
+[[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept {
+  return {_mm_or_si128(_mm_castps_si128(m.v), _mm_set1_epi32(1))};
+}
+/// ~a where m, else a.
+[[nodiscard]] inline I32 invert(Mask m, I32 a) noexcept { return {_mm_xor_si128(_mm_castps_si128(m.v), a.v)}; }
+/// a where m, else zero.
+[[nodiscard]] inline I32 keep(Mask m, I32 a) noexcept { return {_mm_and_si128(_mm_castps_si128(m.v), a.v)}; }
+/// Zero where m, else a.
+[[nodiscard]] inline I32 drop(Mask m, I32 a) noexcept { return {_mm_andnot_si128(_mm_castps_si128(m.v), a.v)}; }
+/// -a where `sign` has its sign bit set, else a.
+[[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept {
+  return {_mm_xor_ps(a.v, _mm_and_ps(sign.v, _mm_set1_ps(-0.0f)))};
+}
+
+/// The three floats at base + 3 * index[k], for all lanes.
+[[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
+                                                F32& c) noexcept {
+  const auto pair = [&](std::size_t k, std::size_t from) {  // (p[from], p[from + 1]) of lanes k and k + 1
+    const auto* const low = reinterpret_cast<const __m64*>(base + 3 * static_cast<std::size_t>(index[k]) + from);
+    const auto* const high = reinterpret_cast<const __m64*>(base + 3 * static_cast<std::size_t>(index[k + 1]) + from);
+    return _mm_loadh_pi(_mm_loadl_pi(_mm_setzero_ps(), low), high);
+  };
+  const __m128 ab[2] = {pair(0, 0), pair(2, 0)};
+  const __m128 bc[2] = {pair(0, 1), pair(2, 1)};
+  a = {_mm_shuffle_ps(ab[0], ab[1], _MM_SHUFFLE(2, 0, 2, 0))};
+  b = {_mm_shuffle_ps(bc[0], bc[1], _MM_SHUFFLE(2, 0, 2, 0))};
+  c = {_mm_shuffle_ps(bc[0], bc[1], _MM_SHUFFLE(3, 1, 3, 1))};
+}
 
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA
@@ -275,6 +387,51 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 
 /// To the nearest integer, ties to even (the default rounding mode).
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {vcvtnq_s32_f32(a.v)}; }
+
+/// Lanes of integers.
+[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept { return {vld1q_s32(p)}; }
+[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {vdupq_n_s32(value)}; }
+[[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {vsubq_s32(a.v, b.v)}; }
+[[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {vandq_s32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {vceqq_s32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator>(I32 a, I32 b) noexcept { return {vcgtq_s32(a.v, b.v)}; }
+[[nodiscard]] inline I32 shift_left(I32 a, int count) noexcept { return {vshlq_s32(a.v, vdupq_n_s32(count))}; }
+/// Towards minus infinity.
+[[nodiscard]] inline I32 shift_right(I32 a, int count) noexcept { return {vshlq_s32(a.v, vdupq_n_s32(-count))}; }
+/// For numbers from -1 to 2^15 - 1.
+[[nodiscard]] inline I32 small_min(I32 a, I32 b) noexcept { return {vminq_s32(a.v, b.v)}; }
+[[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {vmaxq_s32(a.v, b.v)}; }
+/// For a from -2^15, b from 0, to 2^15 - 1.
+[[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {vmulq_s32(a.v, b.v)}; }
+[[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {vcltzq_s32(a.v)}; }
+/// -1 where m, else 1.
+[[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept {
+  return {vorrq_s32(vreinterpretq_s32_u32(m.v), vdupq_n_s32(1))};
+}
+/// ~a where m, else a.
+[[nodiscard]] inline I32 invert(Mask m, I32 a) noexcept { return {veorq_s32(vreinterpretq_s32_u32(m.v), a.v)}; }
+/// a where m, else zero.
+[[nodiscard]] inline I32 keep(Mask m, I32 a) noexcept { return {vandq_s32(vreinterpretq_s32_u32(m.v), a.v)}; }
+/// Zero where m, else a.
+[[nodiscard]] inline I32 drop(Mask m, I32 a) noexcept { return {vbicq_s32(a.v, vreinterpretq_s32_u32(m.v))}; }
+/// -a where `sign` has its sign bit set, else a.
+[[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept {
+  const uint32x4_t bit = vandq_u32(vreinterpretq_u32_f32(sign.v), vdupq_n_u32(0x80000000u));
+  return {vreinterpretq_f32_u32(veorq_u32(vreinterpretq_u32_f32(a.v), bit))};
+}
+
+/// The three floats at base + 3 * index[k], for all lanes.
+[[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
+                                                F32& c) noexcept {
+  float32x4x3_t abc{};
+  abc = vld3q_lane_f32(base + 3 * static_cast<std::size_t>(index[0]), abc, 0);
+  abc = vld3q_lane_f32(base + 3 * static_cast<std::size_t>(index[1]), abc, 1);
+  abc = vld3q_lane_f32(base + 3 * static_cast<std::size_t>(index[2]), abc, 2);
+  abc = vld3q_lane_f32(base + 3 * static_cast<std::size_t>(index[3]), abc, 3);
+  a = {abc.val[0]};
+  b = {abc.val[1]};
+  c = {abc.val[2]};
+}
 
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA
@@ -361,6 +518,42 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 /// the same bits on every machine, with no call into libm.
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {bits_of({a.v + 12582912.0f}).v - 0x4B400000}; }
 
+/// Lanes of integers.
+[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept { return {*p}; }
+[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {value}; }
+[[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {a.v - b.v}; }
+[[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {a.v & b.v}; }
+[[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {a.v == b.v}; }
+[[nodiscard]] inline Mask operator>(I32 a, I32 b) noexcept { return {a.v > b.v}; }
+[[nodiscard]] inline I32 shift_left(I32 a, int count) noexcept { return {a.v * (std::int32_t{1} << count)}; }
+/// Towards minus infinity (as every compiler we know shifts, and C++20 demands).
+[[nodiscard]] inline I32 shift_right(I32 a, int count) noexcept { return {a.v >> count}; }
+/// For numbers from -1 to 2^15 - 1.
+[[nodiscard]] inline I32 small_min(I32 a, I32 b) noexcept { return {a.v < b.v ? a.v : b.v}; }
+[[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {a.v > b.v ? a.v : b.v}; }
+/// For a from -2^15, b from 0, to 2^15 - 1.
+[[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
+[[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {a.v < 0}; }
+/// -1 where m, else 1.
+[[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept { return {m.v ? -1 : 1}; }
+/// ~a where m, else a.
+[[nodiscard]] inline I32 invert(Mask m, I32 a) noexcept { return {m.v ? ~a.v : a.v}; }
+/// a where m, else zero.
+[[nodiscard]] inline I32 keep(Mask m, I32 a) noexcept { return {m.v ? a.v : 0}; }
+/// Zero where m, else a.
+[[nodiscard]] inline I32 drop(Mask m, I32 a) noexcept { return {m.v ? 0 : a.v}; }
+/// -a where `sign` has its sign bit set, else a.
+[[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept { return {bits_of(sign).v < 0 ? -a.v : a.v}; }
+
+/// The three floats at base + 3 * index[k], for all lanes.
+[[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
+                                                F32& c) noexcept {
+  const float* const p = base + 3 * static_cast<std::size_t>(*index);
+  a = {p[0]};
+  b = {p[1]};
+  c = {p[2]};
+}
+
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
@@ -416,54 +609,39 @@ namespace math {
   return is_finite(v[0]) && is_finite(v[1]) && is_finite(v[2]);
 }
 
-/// atan(t) / 2 pi for t in [0, 1], within 2.3e-8 turns. A minimax fit with both ends exact: 0 -> 0 and 1 -> 1/8,
-/// because points on axes and diagonals lie on the borders of cells.
-[[nodiscard]] inline simd::F32 octant_turns(simd::F32 t) noexcept {
+/// The angle of (far, near), both >= 0, above the diagonal, in units of which a power of two make a turn: up to 1/8
+/// turn either way, within 6e-8. A minimax fit with both ends exact, because points on axes and diagonals lie on the
+/// borders of cells. Of (0, 0), or of what is not finite: -1/8.
+template <int UnitsPerTurn>
+[[nodiscard, gnu::always_inline]] inline simd::F32 angle_above_diagonal(simd::F32 far, simd::F32 near) noexcept {
   using simd::all;
+  constexpr auto unit = static_cast<float>(UnitsPerTurn);
+  // The tangent of an angle minus an eighth of a turn. max() gives its second argument where the first is NaN.
+  const simd::F32 t = simd::max((near - far) / (near + far), all(-1.0f));
   const simd::F32 s = t * t;
-  simd::F32 p = all(-0.0006326765287667513f);
-  p = p * s + all(0.003435686230659485f);
-  p = p * s + all(-0.008838068693876266f);
-  p = p * s + all(0.01530371978878975f);
-  p = p * s + all(-0.02212062105536461f);
-  p = p * s + all(0.03174300864338875f);
-  p = p * s + all(-0.053045883774757385f);
-  p = p * s + all(0.15915483236312866f);
+  simd::F32 p = all(unit * 0.00106037291698158f);
+  p = p * s + all(unit * -0.00527749117463827f);
+  p = p * s + all(unit * 0.0125921480357647f);
+  p = p * s + all(unit * -0.0210182461887598f);
+  p = p * s + all(unit * 0.0315139554440975f);
+  p = p * s + all(unit * -0.0530250333249569f);
+  p = p * s + all(unit * 0.159154295921326f);
   return p * t;
-}
-
-/// The angle of (x, y) split into a multiple of a quarter turn and a signed rest of at most an eighth, in turns, for
-/// y's absolute value: angle = quarter + rest lies in [0, 1/2]. Kept apart so that whoever adds an offset rounds once.
-struct HalfTurns {
-  simd::F32 quarter;
-  simd::F32 rest;
-};
-
-[[nodiscard]] inline HalfTurns half_turns(simd::F32 x, simd::F32 y) noexcept {
-  using simd::all;
-  const simd::F32 ax = simd::abs(x);
-  const simd::F32 ay = simd::abs(y);
-  // The smallest normal number stands in for 0 / 0: the angle of (0, 0) is 0.
-  const simd::F32 eighth = octant_turns(simd::min(ax, ay) / simd::max(simd::max(ax, ay), all(1.17549435e-38f)));
-  const simd::Mask steep = ay > ax;
-  const simd::Mask backward = x < all(0.0f);
-  const simd::F32 quarter = simd::select(steep, all(0.25f), simd::keep(backward, all(0.5f)));
-  return {quarter, simd::negate(steep ^ backward, eighth)};
 }
 
 /// The angle from the z axis, 0 at z > 0 to 1 at z < 0 (theta / pi); rho >= 0 is the distance from the axis.
 [[nodiscard]] inline simd::F32 elevation(simd::F32 rho, simd::F32 z) noexcept {
-  const HalfTurns half = half_turns(z, rho);
-  const simd::F32 turns = half.quarter + half.rest;
-  return turns + turns;
+  using simd::all;
+  const simd::F32 above_equator = angle_above_diagonal<2>(simd::abs(z), rho) - all(0.25f);  // of (rho, |z|): -1/2 to 0
+  return all(0.5f) + simd::flip_sign(above_equator, z);
 }
 
 /// (atan2(y, x) + pi) / 2 pi in [0, 1]: 1 for y = 0, x < 0.
 [[nodiscard]] inline simd::F32 azimuth(simd::F32 x, simd::F32 y) noexcept {
   using simd::all;
-  const HalfTurns half = half_turns(x, y);
-  const simd::Mask below = y < all(0.0f);
-  return (all(0.5f) + simd::negate(below, half.quarter)) + simd::negate(below, half.rest);
+  const simd::F32 before_quarter = angle_above_diagonal<1>(simd::abs(x), simd::abs(y)) - all(0.125f);  // -1/4 to 0
+  const simd::F32 half = all(0.25f) + simd::negate(x < all(0.0f), before_quarter);                     // 0 to 1/2
+  return all(0.5f) + simd::negate(y < all(0.0f), half);
 }
 
 /// Natural logarithm of a positive normal number, absolute error below 2e-7 near 1, relative below 2e-7 elsewhere.
@@ -1013,6 +1191,10 @@ struct LabLanes {
   simd::F32 L, a, b;
 };
 
+[[nodiscard]] inline LabLanes in_all_lanes(const Lab& color) noexcept {
+  return {simd::all(color.L), simd::all(color.a), simd::all(color.b)};
+}
+
 /// CSHOT's colour distance in [0, 1]: (|dL| / 100 + (|da| / 120 + |db| / 120) / 2) / 3.
 [[nodiscard]] inline simd::F32 color_distances(const LabLanes& p, const LabLanes& q) noexcept {
   using simd::all;
@@ -1022,8 +1204,7 @@ struct LabLanes {
 }
 
 [[nodiscard]] inline float color_distance(const Lab& p, const Lab& q) noexcept {
-  const auto lanes = [](const Lab& c) { return LabLanes{simd::all(c.L), simd::all(c.a), simd::all(c.b)}; };
-  return simd::largest(color_distances(lanes(p), lanes(q)));
+  return simd::largest(color_distances(in_all_lanes(p), in_all_lanes(q)));
 }
 
 }  // namespace SHORTSHOT_ISA
@@ -1031,8 +1212,9 @@ struct LabLanes {
 
 // shortshot/describe.hpp: the kernel. One gathered neighbourhood and a frame in, one descriptor out.
 //
-// Neighbours go through in chunks, each chunk in passes over small arrays: locate (local spherical coordinates), then
-// per part: signal, votes, scatter. Votes are rounded to integers before they are added up (fixed_point.hpp).
+// Neighbours go through in chunks, each chunk in passes over small arrays: locate (local spherical coordinates,
+// locate.hpp), then for each part: vote (cells and weights, voting.hpp), and scatter. Votes are integers, and so are
+// their sums (fixed_point.hpp).
 
 // shortshot/color_source.hpp: where a descriptor's colours come from: the cloud's bytes, or an array converted before.
 
@@ -1062,6 +1244,25 @@ struct LabColors {
 struct NoColors {
   [[nodiscard]] static Status status() noexcept { return Status::ok; }
 };
+
+/// One register of colours by index.
+template <class Colors>
+[[nodiscard]] inline LabLanes colors_at(const Colors& colors, const std::uint32_t* index) noexcept {
+  float lanes[3][simd::lanes];
+  for (std::size_t k = 0; k < simd::lanes; ++k) {
+    const Lab color = colors(index[k]);
+    lanes[0][k] = color.L;
+    lanes[1][k] = color.a;
+    lanes[2][k] = color.b;
+  }
+  return {simd::load(lanes[0]), simd::load(lanes[1]), simd::load(lanes[2])};
+}
+
+[[nodiscard]] inline LabLanes colors_at(const LabColors& colors, const std::uint32_t* index) noexcept {
+  LabLanes lab;
+  simd::load_triples(&colors.lab->L, index, lab.L, lab.a, lab.b);
+  return lab;
+}
 
 /// Convert all colours of a cloud into `lab` (cloud.size elements of the caller's). Statuses: empty_cloud, bad_view,
 /// missing_colors.
@@ -1114,11 +1315,15 @@ struct SphericalGrid {
   [[nodiscard]] static constexpr int index(int r, int e, int a) noexcept { return r + Radial * (e + Elevation * a); }
 };
 
-/// Shells of equal width: the published default. `u` is the distance over the support radius, in [0, 1].
+/// Shells of equal width: the published default. `u` is the distance over the support radius, in [0, 1]; `shell` is how
+/// much one shell counts.
 struct LinearRadius {
+  static constexpr bool below_zero = false;
+  /// All borders and middles of shells are multiples of 1 / borders.
+  static constexpr int borders(int shells) noexcept { return 2 * shells; }
   template <int Shells>
-  [[nodiscard]] static simd::F32 position(simd::F32 u) noexcept {
-    return u * simd::all(static_cast<float>(Shells));
+  [[nodiscard]] static simd::F32 position(simd::F32 u, float shell) noexcept {
+    return u * simd::all(static_cast<float>(Shells) * shell);
   }
 };
 
@@ -1128,14 +1333,18 @@ template <int Numerator = 1, int Denominator = 4>
 struct LogRadius {
   static_assert(0 < Numerator && 100LL * Numerator <= 99LL * Denominator,
                 "LogRadius<N, D> supports ratios 0 < N / D <= 0.99");
+  static constexpr bool below_zero = true;
+  static constexpr int borders(int) noexcept { return 1; }  // in float's own rounding
   template <int Shells>
-  [[nodiscard]] static simd::F32 position(simd::F32 u) noexcept {
+  [[nodiscard]] static simd::F32 position(simd::F32 u, float shell) noexcept {
     const float log_of_ratio = math::log(static_cast<float>(Numerator) / static_cast<float>(Denominator));
     return simd::apply(
-        [log_of_ratio](float distance) {
+        [log_of_ratio, shell](float distance) {
           // Distances below the smallest normal number have no logarithm; any tiny one lies in the innermost shell.
           const float log_of_distance = math::log(distance > 1e-30f ? distance : 1e-30f);
-          return static_cast<float>(Shells - 1) * (log_of_distance - log_of_ratio) / -log_of_ratio + 1.0f;
+          const float p = static_cast<float>(Shells - 1) * (log_of_distance - log_of_ratio) / -log_of_ratio + 1.0f;
+          // Below zero, what counts is the rest of a shell: the cell is the innermost one anyway.
+          return (p < 0.0f ? p - static_cast<float>(static_cast<int>(p)) : p) * shell;
         },
         u);
   }
@@ -1146,9 +1355,11 @@ struct LogRadius {
 
 // shortshot/voting.hpp: how one point is shared among neighbouring cells, written once over N axes.
 //
-// A rule has two steps. split() takes a position along one axis, in cells, and finds the cell it lies in and the nearer
+// A rule has two steps. split() takes a position along one axis and finds the cell it lies in and the nearer
 // neighbouring cell, its partner, with the share of each. combine() makes a list of votes from the shares of all axes:
 // axis 0 radius, 1 elevation, 2 azimuth, and 3 the histogram's signal where the part has one.
+//
+// All of it is integer arithmetic: shares are added up exactly, and indices need no conversion.
 
 // shortshot/unroll.hpp: loops of a length known while compiling, written out. Compilers do not unroll them at -O2, and
 // what an unrolled body keeps in registers a loop keeps in memory.
@@ -1158,13 +1369,13 @@ inline namespace SHORTSHOT_ISA {
 namespace detail {
 
 template <class Function, int... I>
-inline void unroll(Function f, std::integer_sequence<int, I...>) noexcept {
+[[gnu::always_inline]] inline void unroll(Function f, std::integer_sequence<int, I...>) noexcept {
   (f(std::integral_constant<int, I>{}), ...);
 }
 
 /// f(0), f(1), ... f(Count - 1), each with its index as a compile-time constant.
 template <int Count, class Function>
-inline void unroll(Function f) noexcept {
+[[gnu::always_inline]] inline void unroll(Function f) noexcept {
   unroll(f, std::make_integer_sequence<int, Count>{});
 }
 
@@ -1179,63 +1390,88 @@ inline namespace SHORTSHOT_ISA {
 enum class Beyond { nothing, first_cell };
 
 /// One axis of a part: its number of cells, the distance of two neighbouring cells in the descriptor, and its ends.
-template <int Cells, int Stride, Beyond End>
+/// Positions along it are fixed-point numbers of cells with `Bits` bits behind the point. They may lie below zero, by
+/// as much as a cell, only where `BelowZero` says so.
+template <int Cells, int Stride, Beyond End, int Bits, bool BelowZero = false>
 struct Axis {
   static constexpr int cells = Cells;
   static constexpr int stride = Stride;
   static constexpr Beyond end = End;
+  static constexpr int bits = Bits;
+  static constexpr float one = static_cast<float>(std::int32_t{1} << Bits);  ///< a whole cell
+  static constexpr bool below_zero = BelowZero;
 };
 
-/// A point's share along one axis. Indices are whole numbers in floats: exact, and multiplied without integer lanes.
+/// The fixed-point unit of all votes: `one`, a power of two, is a whole share.
+struct VoteUnit {
+  int bits;
+  std::int32_t one;
+};
+
+/// A point's share along one axis.
 struct Share {
-  simd::F32 cell;     ///< index of the primary cell, times the axis' stride
-  simd::F32 partner;  ///< index of the partner cell minus that of the primary one; 0 where there is no partner
-  simd::F32 weight;   ///< the primary cell's share; the partner's is 1 - weight
-  simd::Mask has_partner;
+  simd::I32 cell;           ///< index of the primary cell, times the axis' stride
+  simd::I32 step;           ///< index of the partner cell minus that of the primary one; 0 where there is no partner
+  simd::I32 twice_partner;  ///< twice the partner's share in units, 0 to 1; the primary cell has the rest
+  simd::Mask alone;         ///< there is no partner: only where the axis ends
 };
 
-/// The votes of one point: `Count` indices into the part and their weights.
+/// The votes of one point: `Count` indices into the part and their weights, in units.
 template <int Count>
 struct Votes {
-  simd::F32 index[Count];
-  simd::F32 weight[Count];
+  simd::I32 index[Count];
+  simd::I32 weight[Count];
 };
 
 namespace detail {
 
-/// The cell of a position, clamped to the axis.
+/// The cell of a position. The very end of the axis is the upper border of the last cell.
 template <class Axis>
-[[nodiscard]] inline simd::F32 clamped_cell(simd::F32 position) noexcept {
-  const simd::F32 cell = simd::truncate(position);
-  return simd::max(simd::all(0.0f), simd::min(cell, simd::all(static_cast<float>(Axis::cells - 1))));
+[[nodiscard]] inline simd::I32 cell_of(simd::I32 position) noexcept {
+  const simd::I32 cell = simd::small_min(simd::shift_right(position, Axis::bits), simd::all(Axis::cells - 1));
+  return Axis::below_zero ? simd::small_max(cell, simd::all(0)) : cell;
 }
 
-/// The share of a position whose distance from its cell's lower border is `fraction` (in cells).
-template <class Axis>
-[[nodiscard]] inline Share share(simd::F32 cell, simd::F32 fraction) noexcept {
-  using simd::all;
-  constexpr auto stride = static_cast<float>(Axis::stride);
-  constexpr auto last = static_cast<float>(Axis::cells - 1);
-  const simd::F32 weight = all(1.0f) - simd::abs(fraction - all(0.5f));
-  const simd::F32 index = cell * all(stride);
-  if constexpr (Axis::cells == 1) return {index, all(0.0f), weight, all(1.0f) < all(0.0f)};
+template <int Factor>
+[[nodiscard]] inline simd::I32 times(simd::I32 a) noexcept {
+  if constexpr (Factor == 1) return a;
+  if constexpr (Factor < 32768) return simd::small_product(a, simd::all(Factor));
+  return simd::small_product(a, simd::all(Factor / 2)) + simd::small_product(a, simd::all(Factor - Factor / 2));
+}
 
-  const simd::Mask upper = fraction > all(0.5f);
-  const simd::F32 step = simd::negate(upper, all(-stride));
-  const simd::F32 neighbor = cell + simd::negate(upper, all(-1.0f));
+/// From a cell to the next one in a direction (1 or -1), around the ends.
+template <class Axis>
+[[nodiscard, gnu::always_inline]] inline simd::I32 next_around(simd::I32 cell, simd::I32 direction) noexcept {
+  using simd::all;
+  const simd::I32 next = cell + direction;
+  if constexpr ((Axis::cells & (Axis::cells - 1)) == 0) return next & all(Axis::cells - 1);
+  return (next + keep(is_negative(next), all(Axis::cells))) - keep(next > all(Axis::cells - 1), all(Axis::cells));
+}
+
+/// The share of a position in a cell: fraction 0 is the cell's lower border, 2^Axis::bits its upper one.
+template <class Axis>
+[[nodiscard, gnu::always_inline]] inline Share share(simd::I32 cell, simd::I32 fraction,
+                                                     const VoteUnit& unit) noexcept {
+  using simd::all;
+  constexpr std::int32_t half = std::int32_t{1} << (Axis::bits - 1);
+  const simd::I32 side = fraction - all(half + 1);
+  const simd::Mask lower = is_negative(side);  // the middle of the cell included
+  const simd::I32 direction = minus_one_or_one(lower);
+  // The partner's share is the distance from the middle; ~side = -side - 1 is what is left up to it.
+  const simd::I32 twice_partner = simd::shift_right(invert(lower, side), Axis::bits - unit.bits - 1);
+  const simd::I32 index = times<Axis::stride>(cell);
+  if constexpr (Axis::cells == 1) return {index, all(0), twice_partner, all(0) == all(0)};
   if constexpr (Axis::end == Beyond::first_cell) {
-    const simd::F32 around = all(static_cast<float>(Axis::cells) * stride);
-    const simd::F32 up = keep(all(0.0f) > neighbor, around);
-    const simd::F32 down = keep(neighbor > all(last), around);
-    return {index, (step + up) - down, weight, all(0.0f) < all(1.0f)};
+    const simd::I32 step = times<Axis::stride>(next_around<Axis>(cell, direction) - cell);
+    return {index, step, twice_partner, all(0) == all(1)};
   }
-  const simd::Mask inside = (neighbor >= all(0.0f)) & (all(last) >= neighbor);
-  return {index, keep(inside, step), weight, inside};
+  const simd::Mask alone = cell == drop(lower, all(Axis::cells - 1));  // first and lower, or last and upper
+  return {index, drop(alone, times<Axis::stride>(direction)), twice_partner, alone};
 }
 
 template <int Axes>
-[[nodiscard]] inline simd::F32 primary_index(const Share (&shares)[Axes]) noexcept {
-  simd::F32 index = shares[0].cell;
+[[nodiscard]] inline simd::I32 primary_index(const Share (&shares)[Axes]) noexcept {
+  simd::I32 index = shares[0].cell;
   unroll<Axes - 1>([&](auto i) { index = index + shares[i + 1].cell; });
   return index;
 }
@@ -1255,32 +1491,37 @@ struct AdditiveVoting {
   static constexpr int votes = Axes + 1;
 
   template <class Axis>
-  [[nodiscard]] static Share split(simd::F32 position) noexcept {
-    return detail::share<Axis>(detail::clamped_cell<Axis>(position), position - simd::truncate(position));
+  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
+    simd::I32 fraction = position & simd::all((std::int32_t{1} << Axis::bits) - 1);
+    if constexpr (Axis::below_zero) {
+      const simd::Mask below = is_negative(position);
+      fraction = keep(below, position) + drop(below, fraction);
+    }
+    return detail::share<Axis>(detail::cell_of<Axis>(position), fraction, unit);
   }
 
-  template <int Axes>
-  [[nodiscard]] static Votes<Axes + 1> combine(const Share (&shares)[Axes]) noexcept {
+  template <class... AllAxes>
+  [[nodiscard, gnu::always_inline]] static Votes<sizeof...(AllAxes) + 1> combine(
+      const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
     using simd::all;
-    simd::F32 sum = shares[0].weight;
-    detail::unroll<Axes - 1>([&](auto i) { sum = sum + shares[i + 1].weight; });
+    constexpr int axes = sizeof...(AllAxes);
+    constexpr bool may_be_alone[] = {AllAxes::cells == 1 || AllAxes::end == Beyond::nothing...};
+    simd::I32 twice_partners = shares[0].twice_partner;
+    detail::unroll<axes - 1>([&](auto i) { twice_partners = twice_partners + shares[i + 1].twice_partner; });
+    const simd::I32 sum = all(axes * unit.one) - simd::shift_right(twice_partners, 1);
+    const simd::I32 rest = sum - all(unit.one);
 
-    Votes<Axes + 1> votes;
+    Votes<axes + 1> votes;
     votes.index[0] = detail::primary_index(shares);
     votes.weight[0] = sum;
-    detail::unroll<Axes>([&](auto i) {
-      simd::F32 weight = sum + swap_share(shares[i]);
-      if (FlipRadius && i == 3) weight = weight + swap_share(shares[0]);
-      votes.index[i + 1] = votes.index[0] + shares[i].partner;
-      votes.weight[i + 1] = keep(shares[i].has_partner, weight);
+    detail::unroll<axes>([&](auto i) {
+      // A share 1 - p replaced by p.
+      simd::I32 weight = rest + shares[i].twice_partner;
+      if constexpr (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all(unit.one));
+      votes.index[i + 1] = votes.index[0] + shares[i].step;
+      votes.weight[i + 1] = may_be_alone[i] ? drop(shares[i].alone, weight) : weight;
     });
     return votes;
-  }
-
- private:
-  /// What a sum of shares changes by when a primary share w is replaced by its partner's, 1 - w.
-  [[nodiscard]] static simd::F32 swap_share(const Share& share) noexcept {
-    return simd::all(1.0f) - (share.weight + share.weight);
   }
 };
 
@@ -1293,14 +1534,15 @@ struct HardVoting {
   static constexpr int votes = 1;
 
   template <class Axis>
-  [[nodiscard]] static Share split(simd::F32 position) noexcept {
-    const simd::F32 index = detail::clamped_cell<Axis>(position) * simd::all(static_cast<float>(Axis::stride));
-    return {index, simd::all(0.0f), simd::all(1.0f), simd::all(1.0f) < simd::all(0.0f)};
+  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit&) noexcept {
+    using simd::all;
+    return {detail::times<Axis::stride>(detail::cell_of<Axis>(position)), all(0), all(0), all(0) == all(0)};
   }
 
-  template <int Axes>
-  [[nodiscard]] static Votes<1> combine(const Share (&shares)[Axes]) noexcept {
-    return {{detail::primary_index(shares)}, {simd::all(1.0f)}};
+  template <class... AllAxes>
+  [[nodiscard, gnu::always_inline]] static Votes<1> combine(const Share (&shares)[sizeof...(AllAxes)],
+                                                            const VoteUnit& unit) noexcept {
+    return {{detail::primary_index(shares)}, {simd::all(unit.one)}};
   }
 };
 
@@ -1311,26 +1553,32 @@ struct MultilinearVoting {
   static constexpr int votes = 1 << Axes;
 
   template <class Axis>
-  [[nodiscard]] static Share split(simd::F32 position) noexcept {
-    const simd::F32 cell = detail::clamped_cell<Axis>(position);
-    Share share = detail::share<Axis>(cell, position - cell);
-    share.weight = select(share.has_partner, share.weight, simd::all(1.0f));
+  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
+    const simd::I32 cell = detail::cell_of<Axis>(position);
+    Share share = detail::share<Axis>(cell, position - simd::shift_left(cell, Axis::bits), unit);
+    share.twice_partner = drop(share.alone, share.twice_partner);
     return share;
   }
 
-  template <int Axes>
-  [[nodiscard]] static Votes<(1 << Axes)> combine(const Share (&shares)[Axes]) noexcept {
-    Votes<(1 << Axes)> votes;
+  template <class... AllAxes>
+  [[nodiscard, gnu::always_inline]] static Votes<(1 << sizeof...(AllAxes))> combine(
+      const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
+    constexpr int axes = sizeof...(AllAxes);
+    const simd::F32 half = simd::all(0.5f / static_cast<float>(unit.one));
+    Votes<(1 << axes)> votes;
+    simd::F32 weight[1 << axes];
     votes.index[0] = detail::primary_index(shares);
-    votes.weight[0] = simd::all(1.0f);
-    detail::unroll<Axes>([&](auto axis) {
-      constexpr int half = 1 << decltype(axis)::value;
-      detail::unroll<half>([&](auto i) {
-        votes.index[half + i] = votes.index[i] + shares[axis].partner;
-        votes.weight[half + i] = votes.weight[i] * (simd::all(1.0f) - shares[axis].weight);
-        votes.weight[i] = votes.weight[i] * shares[axis].weight;
+    weight[0] = simd::all(static_cast<float>(unit.one));
+    detail::unroll<axes>([&](auto axis) {
+      constexpr int count = 1 << decltype(axis)::value;
+      const simd::F32 partner = to_float(shares[axis].twice_partner) * half;
+      detail::unroll<count>([&](auto i) {
+        votes.index[count + i] = votes.index[i] + shares[axis].step;
+        weight[count + i] = weight[i] * partner;
+        weight[i] = weight[i] - weight[count + i];
       });
     });
+    detail::unroll<(1 << axes)>([&](auto i) { votes.weight[i] = round_to_int(weight[i]); });
     return votes;
   }
 };
@@ -1358,6 +1606,18 @@ struct ColorDistance {
   using Rule = LabRule;
 };
 
+namespace detail {
+
+/// The largest e such that positions up to any of these numbers of cells, times 2^e, are at most 2^30.
+template <class... Cells>
+constexpr int position_bits(Cells... cells) noexcept {
+  int bits = 30;
+  for (int covered = 1; ((covered < cells) || ...); covered *= 2) --bits;
+  return bits;
+}
+
+}  // namespace detail
+
 /// A spherical grid with a histogram of one signal in every cell.
 /// Layout: histogram bin fastest, then radius, elevation, azimuth.
 template <class GridType, class SignalType, class RadiusScale = LinearRadius>
@@ -1373,10 +1633,13 @@ struct Part {
     return bin + Signal::bins * Grid::index(r, e, a);
   }
 
-  using RadialAxis = Axis<Grid::radial, Signal::bins, Beyond::nothing>;
-  using ElevationAxis = Axis<Grid::elevation, Signal::bins * Grid::radial, Beyond::nothing>;
-  using AzimuthAxis = Axis<Grid::azimuth, Signal::bins * Grid::radial * Grid::elevation, Beyond::first_cell>;
-  using SignalAxis = Axis<Signal::bins, 1, Beyond::nothing>;
+  /// Bits of positions behind the point: what int32 has room for on the finest axis. No bit of a float is lost that
+  /// could matter.
+  static constexpr int bits = detail::position_bits(Grid::radial, Grid::elevation, Grid::azimuth, Signal::bins);
+  using RadialAxis = Axis<Grid::radial, Signal::bins, Beyond::nothing, bits, Scale::below_zero>;
+  using ElevationAxis = Axis<Grid::elevation, Signal::bins * Grid::radial, Beyond::nothing, bits>;
+  using AzimuthAxis = Axis<Grid::azimuth, Signal::bins * Grid::radial * Grid::elevation, Beyond::first_cell, bits>;
+  using SignalAxis = Axis<Signal::bins, 1, Beyond::nothing, bits>;
 };
 
 namespace detail {
@@ -1395,6 +1658,14 @@ struct LabRuleOf<Signal, Others...> {
   using type = std::conditional_t<std::is_void<Mine>::value, Next, Mine>;
 };
 
+/// The smallest common multiple, up to 2^20: as far as floats tell multiples of its inverse apart.
+constexpr int common_multiple(int a, int b) noexcept {
+  constexpr int most = 1 << 20;
+  int multiple = a;
+  while (multiple % b != 0 && multiple < most - a) multiple += a;
+  return multiple % b == 0 ? multiple : most;
+}
+
 }  // namespace detail
 
 /// A descriptor: its parts one after the other, filled by one voting rule and normalised together to L2 norm 1.
@@ -1410,6 +1681,21 @@ struct Descriptor {
 
   static constexpr bool needs_colors = (Parts::Signal::needs_colors || ...);
   using LabRule = typename detail::LabRuleOf<typename Parts::Signal...>::type;
+
+  /// Fewest bits behind the point of positions along its axes.
+  static constexpr int position_bits = [] {
+    int bits = 30;
+    ((bits = Parts::bits < bits ? Parts::bits : bits), ...);
+    return bits;
+  }();
+
+  /// All borders and middles of its shells are multiples of R / shell_borders; 1: none that need more than a float's
+  /// bits.
+  static constexpr int shell_borders = [] {
+    int borders = 1;
+    ((borders = detail::common_multiple(borders, Parts::Scale::borders(Parts::Grid::radial))), ...);
+    return borders;
+  }();
 
   /// First value of part `i` (of `parts` ones), and the end of the last part.
   static constexpr int parts = static_cast<int>(sizeof...(Parts));
@@ -1452,15 +1738,18 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// The largest power of two by which `n` numbers of magnitude up to 2^bits can be scaled so that no partial sum leaves
-/// int32, and each number has at most 22 bits (what simd::round_to_int() can take).
-[[nodiscard]] inline float fixed_point_scale(std::uint32_t n, int bits) noexcept {
+/// The largest e such that `n` numbers of magnitude up to 2^bits, times 2^e, can be added up in any order without
+/// leaving int32, and each has at most 22 bits (what simd::round_to_int() can take).
+[[nodiscard]] inline int fixed_point_exponent(std::uint32_t n, int bits) noexcept {
   int exponent = 30;
   for (std::uint32_t covered = 1; covered < n; covered *= 2) --exponent;
-  if (exponent > 22) exponent = 22;
-  exponent -= bits;
+  return (exponent > 22 ? 22 : exponent) - bits;
+}
+
+/// The same as a factor; 1 at least.
+[[nodiscard]] inline float fixed_point_scale(std::uint32_t n, int bits) noexcept {
   float scale = 1.0f;
-  for (; exponent > 0; --exponent) scale *= 2.0f;
+  for (int exponent = fixed_point_exponent(n, bits); exponent > 0; --exponent) scale *= 2.0f;
   return scale;
 }
 
@@ -1980,111 +2269,190 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, int members, fl
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
+// shortshot/locate.hpp: the kernel's first pass. A chunk of neighbours goes from offsets in the cloud's coordinates to
+// spherical coordinates in the frame.
+
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
 /// Neighbours per chunk. The arrays of a chunk are all the stack that the kernel uses beyond a few registers.
 inline constexpr std::uint32_t chunk_size = 64;
+static_assert(chunk_size % simd::lanes == 0, "registers do not reach beyond the end of a chunk");
 
-/// A chunk of neighbours in the frame's spherical coordinates.
+/// A chunk of neighbours in the frame's spherical coordinates. Only those that are described: passes need no masks.
 struct Chunk {
-  std::uint32_t first;  ///< position in the neighbourhood
   std::uint32_t size;
-  float distance[chunk_size];   ///< over the radius, 0..1
-  float elevation[chunk_size];  ///< angle from +z over pi, 0..1
-  float azimuth[chunk_size];    ///< angle from -x, counter-clockwise, in turns, 0..1
-  float scale[chunk_size];      ///< fixed-point scale of its votes; 0 for neighbours that are not described
+  std::uint32_t index[chunk_size];  ///< in the cloud
+  float distance[chunk_size];       ///< over the radius, 0..1
+  float elevation[chunk_size];      ///< angle from +z over pi, 0..1
+  float azimuth[chunk_size];        ///< angle from -x, counter-clockwise, in turns, 0..1
 };
 
 /// Closest squared distance that is described: the published code skips the key point and its copies by this bound.
 inline constexpr float min_described_d2 = 1e-15f;
 
-/// Local coordinates, each rounded as the published code rounds them: dot products x + z first, then y.
-inline void locate(const Neighborhood& n, const Frame& frame, Radius radius, Chunk& chunk) noexcept {
-  using simd::all;
-  using simd::F32;
-  const F32 inverse = all(1.0f / radius.value);
-  const float splitter = math::length_splitter(radius.value);
-  const F32 vote_scale = all(fixed_point_scale(n.size, 2));
-  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
-    const std::uint32_t k = chunk.first + i;
-    const Offsets v = load_offsets(n, k);
-    const auto along = [&](const float(&axis)[3]) {
-      return (v.dx * all(axis[0]) + v.dz * all(axis[2])) + v.dy * all(axis[1]);
-    };
-    const F32 x = along(frame.x);
-    const F32 y = along(frame.y);
-    const F32 z = along(frame.z);
-    const F32 rho2 = x * x + y * y;
-    // Neighbours beyond the radius (of a wider frame) have no vote, but must not leave the range of int either.
-    simd::store(chunk.distance + i, simd::min(math::length(x, y, z, splitter) * inverse, all(2.0f)));
-    simd::store(chunk.elevation + i, math::elevation(simd::sqrt(rho2), z));
-    simd::store(chunk.azimuth + i, math::azimuth(x, y));
-    simd::store(chunk.scale + i, keep((v.d2 > all(min_described_d2)) & (v.d2 < all(radius.squared)), vote_scale));
-  }
+/// Is a neighbour with this squared distance described? Those beyond the radius are there for a wider frame.
+[[nodiscard]] inline bool is_described(float d2, Radius radius) noexcept {
+  return d2 > min_described_d2 && d2 < radius.squared;
+}
+[[nodiscard]] inline simd::Mask are_described(simd::F32 d2, Radius radius) noexcept {
+  return (d2 > simd::all(min_described_d2)) & (d2 < simd::all(radius.squared));
 }
 
-/// Colour distances of a chunk's neighbours to the key point.
-template <class Colors>
-inline void measure_colors(const Neighborhood& n, const Colors& colors, const Chunk& chunk,
-                           float (&signal)[chunk_size]) noexcept {
-  float lightness[chunk_size];
-  float green_red[chunk_size];
-  float blue_yellow[chunk_size];
-  for (std::uint32_t i = 0; i < chunk.size; ++i) {
-    const Lab color = colors(n.index[chunk.first + i]);
-    lightness[i] = color.L;
-    green_red[i] = color.a;
-    blue_yellow[i] = color.b;
-  }
-  for (std::uint32_t i = chunk.size; i % simd::lanes != 0; ++i) {  // the last register
-    lightness[i] = green_red[i] = blue_yellow[i] = 0.0f;
-  }
-  const Lab& key = colors.reference;
-  const LabLanes reference{simd::all(key.L), simd::all(key.a), simd::all(key.b)};
-  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
-    const LabLanes color{simd::load(lightness + i), simd::load(green_red + i), simd::load(blue_yellow + i)};
-    simd::store(signal + i, color_distances(color, reference));
-  }
+/// Which of these distances (over the radius) are as close to the border or the middle of a shell as their rounding?
+/// All of both are multiples of 1 / `Borders`.
+template <int Borders>
+[[nodiscard]] inline simd::Mask near_border(simd::F32 distance) noexcept {
+  const simd::F32 position = distance * simd::all(static_cast<float>(Borders));
+  const simd::F32 nearest = to_float(round_to_int(position));
+  return simd::all(1e-6f * static_cast<float>(Borders)) > simd::abs(position - nearest);
 }
 
-/// The votes of a chunk, lane-wise: `Count` arrays of positions in the part and fixed-point weights.
-template <int Count>
-struct ChunkVotes {
-  std::int32_t index[Count][chunk_size];
-  std::int32_t weight[Count][chunk_size];
+/// One register of coordinates in the frame, each rounded as the published code rounds it: x + z first, then y.
+struct Local {
+  simd::F32 x, y, z;
 };
 
-/// Axes of a part: three of its grid, and the histogram's where it has one.
+/// An axis of a frame in all lanes.
+struct AxisLanes {
+  simd::F32 x, y, z;
+  explicit AxisLanes(const float (&axis)[3]) noexcept
+      : x(simd::all(axis[0])), y(simd::all(axis[1])), z(simd::all(axis[2])) {}
+  [[nodiscard]] simd::F32 along(const Offsets& v) const noexcept { return (v.dx * x + v.dz * z) + v.dy * y; }
+};
+
+/// Distances over the radius. Points of a regular grid lie exactly on the borders of shells, where one bit decides
+/// which neighbouring shell gets a vote: there, and only there, they are computed with more bits than a float has.
+template <int Borders>
+[[nodiscard, gnu::always_inline]] inline simd::F32 relative_distance(const Offsets& v, const Local& local,
+                                                                     Radius radius) noexcept {
+  const simd::F32 inverse = simd::all(1.0f / radius.value);
+  const simd::F32 distance = simd::sqrt(v.d2) * inverse;
+  if constexpr (Borders > 1) {
+    const simd::Mask near = near_border<Borders>(distance);
+    if (any(near)) {
+      const float splitter = math::length_splitter(radius.value);
+      const simd::F32 exact = math::length(local.x, local.y, local.z, splitter) * inverse;
+      return select(near, simd::min(exact, simd::all(1.0f)), distance);
+    }
+  }
+  return distance;
+}
+
+/// The indices of a register of neighbours, from `first` on.
+inline void copy_indices(const Neighborhood& n, std::uint32_t first, std::uint32_t* index) noexcept {
+  if (n.size - first >= simd::lanes) {
+    std::memcpy(index, n.index + first, simd::lanes * sizeof *index);
+  } else {
+    for (std::uint32_t k = 0; k < n.size - first; ++k) index[k] = n.index[first + k];
+  }
+}
+
+/// Keep the described ones of a register of neighbours that was stored in a chunk from `size` on: its new size.
+[[nodiscard]] inline std::uint32_t append_described(const Neighborhood& n, std::uint32_t first, Radius radius,
+                                                    Chunk& chunk, std::uint32_t size) noexcept {
+  const std::uint32_t end = n.size - first < simd::lanes ? n.size : first + static_cast<std::uint32_t>(simd::lanes);
+  std::uint32_t from = size;
+  for (std::uint32_t i = first; i < end; ++i, ++from) {
+    if (!is_described(n.d2[i], radius)) continue;
+    chunk.index[size] = chunk.index[from];
+    chunk.distance[size] = chunk.distance[from];
+    chunk.elevation[size] = chunk.elevation[from];
+    chunk.azimuth[size] = chunk.azimuth[from];
+    ++size;
+  }
+  return size;
+}
+
+/// Neighbours from `first` on into a chunk.
+template <int Borders>
+inline void locate(const Neighborhood& all, std::uint32_t first, const Frame& frame, Radius radius,
+                   Chunk& chunk) noexcept {
+  const Neighborhood n = all;  // a local: no store to the chunk can change its pointers
+  const AxisLanes x_axis(frame.x);
+  const AxisLanes y_axis(frame.y);
+  const AxisLanes z_axis(frame.z);
+  const std::uint32_t end = n.size - first < chunk_size ? n.size : first + chunk_size;
+  std::uint32_t size = 0;
+  for (std::uint32_t i = first; i < end; i += simd::lanes) {
+    const Offsets v = load_offsets(n, i);
+    const Local local{x_axis.along(v), y_axis.along(v), z_axis.along(v)};
+    simd::store(chunk.distance + size, relative_distance<Borders>(v, local, radius));
+    simd::store(chunk.elevation + size, math::elevation(simd::sqrt(local.x * local.x + local.y * local.y), local.z));
+    simd::store(chunk.azimuth + size, math::azimuth(local.x, local.y));
+    copy_indices(n, i, chunk.index + size);
+    size = every(are_described(v.d2, radius)) ? size + static_cast<std::uint32_t>(simd::lanes)
+                                              : append_described(n, i, radius, chunk, size);
+  }
+  chunk.size = size;
+  // What passes read beyond the end must be colours that exist.
+  for (; size % simd::lanes != 0; ++size) chunk.index[size] = n.index[first];
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// The finest unit in which the votes of `n` neighbours (each of weight 4 at most) can be added up, and no finer than
+/// positions are.
+template <int PositionBits>
+[[nodiscard]] inline VoteUnit vote_unit(std::uint32_t n) noexcept {
+  const int finest = fixed_point_exponent(n, 2);
+  const int bits = finest < PositionBits ? finest : PositionBits - 1;
+  return {bits, std::int32_t{1} << bits};
+}
+
+/// Axes of a part: three of its grid, and the histogram's where it has one. The votes of a point for it.
 template <class Part>
 inline constexpr int axes_of = Part::has_histogram ? 4 : 3;
-
 template <class Voting, class Part>
-inline void vote(const Chunk& chunk, const float (&signal)[chunk_size],
-                 ChunkVotes<Voting::template votes<axes_of<Part>>>& out) noexcept {
-  using simd::all;
-  using Grid = typename Part::Grid;
-  constexpr int axes = axes_of<Part>;
-  constexpr int count = Voting::template votes<axes>;
-  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
-    Share shares[axes];
-    shares[0] = Voting::template split<typename Part::RadialAxis>(
-        Part::Scale::template position<Grid::radial>(simd::load(chunk.distance + i)));
-    shares[1] = Voting::template split<typename Part::ElevationAxis>(simd::load(chunk.elevation + i) *
-                                                                     all(static_cast<float>(Grid::elevation)));
-    shares[2] = Voting::template split<typename Part::AzimuthAxis>(simd::load(chunk.azimuth + i) *
-                                                                   all(static_cast<float>(Grid::azimuth)));
-    if constexpr (Part::has_histogram) {
-      shares[3] = Voting::template split<typename Part::SignalAxis>(simd::load(signal + i) *
-                                                                    all(static_cast<float>(Part::Signal::bins)));
-    }
-    const Votes<count> votes = Voting::combine(shares);
-    const simd::F32 scale = simd::load(chunk.scale + i);
-    unroll<count>([&](auto k) {
-      simd::store(out.index[k] + i, truncate_to_int(votes.index[k]));
-      simd::store(out.weight[k] + i, round_to_int(votes.weight[k] * scale));
-    });
+inline constexpr int votes_of = Voting::template votes<axes_of<Part>>;
+
+/// Positions along an axis, fixed-point, from fractions of it.
+template <class Axis>
+[[nodiscard]] inline simd::I32 positions(simd::F32 fractions) noexcept {
+  return truncate_to_int(fractions * simd::all(static_cast<float>(Axis::cells) * Axis::one));
+}
+
+/// The signal of Occupancy: none.
+struct NoSignal {
+  template <class Colors>
+  explicit NoSignal(const Colors&) noexcept {}
+};
+
+/// The signal of ColorDistance: how far neighbours' colours are from the key point's.
+template <class Colors>
+struct ColorSignal {
+  Colors colors;  // a copy: no store to the chunk can change it
+  LabLanes reference;
+  explicit ColorSignal(const Colors& source) noexcept : colors(source), reference(in_all_lanes(source.reference)) {}
+  [[nodiscard]] simd::F32 operator()(const Chunk& chunk, std::uint32_t i) const noexcept {
+    return color_distances(colors_at(colors, chunk.index + i), reference);
+  }
+};
+
+/// The votes of one register of neighbours, from `i` on, for a part.
+template <class Voting, class Part, class Signal>
+[[nodiscard, gnu::always_inline]] inline auto vote(const Chunk& chunk, std::uint32_t i, const Signal& signal,
+                                                   const VoteUnit& unit) noexcept {
+  using R = typename Part::RadialAxis;
+  using E = typename Part::ElevationAxis;
+  using A = typename Part::AzimuthAxis;
+  const simd::F32 shells = Part::Scale::template position<R::cells>(simd::load(chunk.distance + i), R::one);
+  const Share r = Voting::template split<R>(truncate_to_int(shells), unit);
+  const Share e = Voting::template split<E>(positions<E>(simd::load(chunk.elevation + i)), unit);
+  const Share a = Voting::template split<A>(positions<A>(simd::load(chunk.azimuth + i)), unit);
+  if constexpr (Part::has_histogram) {
+    using S = typename Part::SignalAxis;
+    const Share s = Voting::template split<S>(positions<S>(signal(chunk, i)), unit);
+    return Voting::template combine<R, E, A, S>({r, e, a, s}, unit);
+  } else {
+    return Voting::template combine<R, E, A>({r, e, a}, unit);
   }
 }
 
@@ -2097,29 +2465,55 @@ inline void add_bits(float* value, std::int32_t weight) noexcept {
   std::memcpy(value, &sum, sizeof sum);
 }
 
+/// The votes of a chunk, lane-wise: `Count` arrays of positions in the part, and as many of weights.
+template <int Count>
+struct ChunkVotes {
+  std::int32_t index[Count * chunk_size];
+  std::int32_t weight[Count * chunk_size];
+};
+
+/// Neighbours that follow each other lie in the same cells, and each addition would wait for the one before: in a full
+/// chunk, four from different places are taken in turn.
 template <int Count>
 inline void scatter(const ChunkVotes<Count>& votes, std::uint32_t size, float* part) noexcept {
-  for (std::uint32_t i = 0; i < size; ++i) {
-    unroll<Count>([&](auto k) { add_bits(part + votes.index[k][i], votes.weight[k][i]); });
+  const auto add = [&](std::uint32_t i) {
+    unroll<Count>([&](auto k) { add_bits(part + votes.index[k * chunk_size + i], votes.weight[k * chunk_size + i]); });
+  };
+  std::uint32_t done = 0;
+  if (size == chunk_size) {
+    constexpr std::uint32_t quarter = chunk_size / 4;
+    for (std::uint32_t i = 0; i < quarter; ++i) unroll<4>([&](auto k) { add(i + k * quarter); });
+    done = size;
   }
+  for (std::uint32_t i = done; i < size; ++i) add(i);
 }
 
-/// One chunk into one part.
+/// One chunk into one part. Votes go through memory: taken out of registers lane by lane they would cost twice as much.
 template <class Voting, class Part, class Colors>
-inline void accumulate(const Neighborhood& n, const Colors& colors, const Chunk& chunk, float* part) noexcept {
-  ChunkVotes<Voting::template votes<axes_of<Part>>> votes;
-  float signal[chunk_size];
-  if constexpr (Part::Signal::needs_colors) measure_colors(n, colors, chunk, signal);
-  vote<Voting, Part>(chunk, signal, votes);
-  scatter(votes, chunk.size, part);
+inline void accumulate(const Chunk& chunk, const Colors& colors, VoteUnit unit, float* part) noexcept {
+  using Signal = std::conditional_t<Part::Signal::needs_colors, ColorSignal<Colors>, NoSignal>;
+  const Signal signal(colors);
+  const std::uint32_t size = chunk.size;
+  constexpr int count = votes_of<Voting, Part>;
+  ChunkVotes<count> votes;
+  for (std::uint32_t i = 0; i < size; i += simd::lanes) {
+    const Votes<count> now = vote<Voting, Part>(chunk, i, signal, unit);
+    std::int32_t* const index = votes.index + i;
+    std::int32_t* const weight = votes.weight + i;
+    unroll<count>([&](auto k) {
+      simd::store(index + k * chunk_size, now.index[k]);
+      simd::store(weight + k * chunk_size, now.weight[k]);
+    });
+  }
+  scatter(votes, size, part);
 }
 
 template <class Voting, class... Parts, class Colors>
-inline void accumulate_all(Descriptor<Voting, Parts...>, const Neighborhood& n, const Colors& colors,
-                           const Chunk& chunk, float* out) noexcept {
+inline void accumulate_all(Descriptor<Voting, Parts...>, const Chunk& chunk, const Colors& colors, VoteUnit unit,
+                           float* out) noexcept {
   using D = Descriptor<Voting, Parts...>;
   int part = 0;
-  (accumulate<Voting, Parts>(n, colors, chunk, out + D::offset(part++)), ...);
+  (accumulate<Voting, Parts>(chunk, colors, unit, out + D::offset(part++)), ...);
 }
 
 /// Integers to floats of L2 norm 1. Squares are added up in eight places, whatever the number of lanes: the same order,
@@ -2177,12 +2571,11 @@ template <class D, class Colors>
   if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
   if (status != Status::ok) return status;
 
+  const VoteUnit unit = detail::vote_unit<D::position_bits>(n.size);
   detail::Chunk chunk;
-  for (chunk.first = 0; chunk.first < n.size; chunk.first += detail::chunk_size) {
-    const std::uint32_t rest = n.size - chunk.first;
-    chunk.size = rest < detail::chunk_size ? rest : detail::chunk_size;
-    detail::locate(n, frame, radius, chunk);
-    detail::accumulate_all(D{}, n, colors, chunk, out);
+  for (std::uint32_t first = 0; first < n.size; first += detail::chunk_size) {
+    detail::locate<D::shell_borders>(n, first, frame, radius, chunk);
+    detail::accumulate_all(D{}, chunk, colors, unit, out);
   }
   return detail::normalize<D::size>(out);
 }

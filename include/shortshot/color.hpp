@@ -119,6 +119,10 @@ struct LabLanes {
   simd::F32 L, a, b;
 };
 
+[[nodiscard]] inline LabLanes in_all_lanes(const Lab& color) noexcept {
+  return {simd::all(color.L), simd::all(color.a), simd::all(color.b)};
+}
+
 /// CSHOT's colour distance in [0, 1]: (|dL| / 100 + (|da| / 120 + |db| / 120) / 2) / 3.
 [[nodiscard]] inline simd::F32 color_distances(const LabLanes& p, const LabLanes& q) noexcept {
   using simd::all;
@@ -128,8 +132,7 @@ struct LabLanes {
 }
 
 [[nodiscard]] inline float color_distance(const Lab& p, const Lab& q) noexcept {
-  const auto lanes = [](const Lab& c) { return LabLanes{simd::all(c.L), simd::all(c.a), simd::all(c.b)}; };
-  return simd::largest(color_distances(lanes(p), lanes(q)));
+  return simd::largest(color_distances(in_all_lanes(p), in_all_lanes(q)));
 }
 
 }  // namespace SHORTSHOT_ISA

@@ -8,6 +8,7 @@
 #include "cloud.hpp"
 #include "color.hpp"
 #include "config.hpp"
+#include "simd.hpp"
 #include "status.hpp"
 
 namespace shortshot {
@@ -36,6 +37,25 @@ struct LabColors {
 struct NoColors {
   [[nodiscard]] static Status status() noexcept { return Status::ok; }
 };
+
+/// One register of colours by index.
+template <class Colors>
+[[nodiscard]] inline LabLanes colors_at(const Colors& colors, const std::uint32_t* index) noexcept {
+  float lanes[3][simd::lanes];
+  for (std::size_t k = 0; k < simd::lanes; ++k) {
+    const Lab color = colors(index[k]);
+    lanes[0][k] = color.L;
+    lanes[1][k] = color.a;
+    lanes[2][k] = color.b;
+  }
+  return {simd::load(lanes[0]), simd::load(lanes[1]), simd::load(lanes[2])};
+}
+
+[[nodiscard]] inline LabLanes colors_at(const LabColors& colors, const std::uint32_t* index) noexcept {
+  LabLanes lab;
+  simd::load_triples(&colors.lab->L, index, lab.L, lab.a, lab.b);
+  return lab;
+}
 
 /// Convert all colours of a cloud into `lab` (cloud.size elements of the caller's). Statuses: empty_cloud, bad_view,
 /// missing_colors.

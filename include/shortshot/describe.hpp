@@ -1,7 +1,8 @@
 // shortshot/describe.hpp: the kernel. One gathered neighbourhood and a frame in, one descriptor out.
 //
-// Neighbours go through in chunks, each chunk in passes over small arrays: locate (local spherical coordinates), then
-// per part: signal, votes, scatter. Votes are rounded to integers before they are added up (fixed_point.hpp).
+// Neighbours go through in chunks, each chunk in passes over small arrays: locate (local spherical coordinates,
+// locate.hpp), then for each part: vote (cells and weights, voting.hpp), and scatter. Votes are integers, and so are
+// their sums (fixed_point.hpp).
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@
 #include "descriptor.hpp"
 #include "fixed_point.hpp"
 #include "frame.hpp"
-#include "math.hpp"
+#include "locate.hpp"
 #include "neighborhood.hpp"
 #include "simd.hpp"
 #include "status.hpp"
@@ -25,107 +26,61 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// Neighbours per chunk. The arrays of a chunk are all the stack that the kernel uses beyond a few registers.
-inline constexpr std::uint32_t chunk_size = 64;
-
-/// A chunk of neighbours in the frame's spherical coordinates.
-struct Chunk {
-  std::uint32_t first;  ///< position in the neighbourhood
-  std::uint32_t size;
-  float distance[chunk_size];   ///< over the radius, 0..1
-  float elevation[chunk_size];  ///< angle from +z over pi, 0..1
-  float azimuth[chunk_size];    ///< angle from -x, counter-clockwise, in turns, 0..1
-  float scale[chunk_size];      ///< fixed-point scale of its votes; 0 for neighbours that are not described
-};
-
-/// Closest squared distance that is described: the published code skips the key point and its copies by this bound.
-inline constexpr float min_described_d2 = 1e-15f;
-
-/// Local coordinates, each rounded as the published code rounds them: dot products x + z first, then y.
-inline void locate(const Neighborhood& n, const Frame& frame, Radius radius, Chunk& chunk) noexcept {
-  using simd::all;
-  using simd::F32;
-  const F32 inverse = all(1.0f / radius.value);
-  const float splitter = math::length_splitter(radius.value);
-  const F32 vote_scale = all(fixed_point_scale(n.size, 2));
-  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
-    const std::uint32_t k = chunk.first + i;
-    const Offsets v = load_offsets(n, k);
-    const auto along = [&](const float(&axis)[3]) {
-      return (v.dx * all(axis[0]) + v.dz * all(axis[2])) + v.dy * all(axis[1]);
-    };
-    const F32 x = along(frame.x);
-    const F32 y = along(frame.y);
-    const F32 z = along(frame.z);
-    const F32 rho2 = x * x + y * y;
-    // Neighbours beyond the radius (of a wider frame) have no vote, but must not leave the range of int either.
-    simd::store(chunk.distance + i, simd::min(math::length(x, y, z, splitter) * inverse, all(2.0f)));
-    simd::store(chunk.elevation + i, math::elevation(simd::sqrt(rho2), z));
-    simd::store(chunk.azimuth + i, math::azimuth(x, y));
-    simd::store(chunk.scale + i, keep((v.d2 > all(min_described_d2)) & (v.d2 < all(radius.squared)), vote_scale));
-  }
+/// The finest unit in which the votes of `n` neighbours (each of weight 4 at most) can be added up, and no finer than
+/// positions are.
+template <int PositionBits>
+[[nodiscard]] inline VoteUnit vote_unit(std::uint32_t n) noexcept {
+  const int finest = fixed_point_exponent(n, 2);
+  const int bits = finest < PositionBits ? finest : PositionBits - 1;
+  return {bits, std::int32_t{1} << bits};
 }
 
-/// Colour distances of a chunk's neighbours to the key point.
-template <class Colors>
-inline void measure_colors(const Neighborhood& n, const Colors& colors, const Chunk& chunk,
-                           float (&signal)[chunk_size]) noexcept {
-  float lightness[chunk_size];
-  float green_red[chunk_size];
-  float blue_yellow[chunk_size];
-  for (std::uint32_t i = 0; i < chunk.size; ++i) {
-    const Lab color = colors(n.index[chunk.first + i]);
-    lightness[i] = color.L;
-    green_red[i] = color.a;
-    blue_yellow[i] = color.b;
-  }
-  for (std::uint32_t i = chunk.size; i % simd::lanes != 0; ++i) {  // the last register
-    lightness[i] = green_red[i] = blue_yellow[i] = 0.0f;
-  }
-  const Lab& key = colors.reference;
-  const LabLanes reference{simd::all(key.L), simd::all(key.a), simd::all(key.b)};
-  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
-    const LabLanes color{simd::load(lightness + i), simd::load(green_red + i), simd::load(blue_yellow + i)};
-    simd::store(signal + i, color_distances(color, reference));
-  }
-}
-
-/// The votes of a chunk, lane-wise: `Count` arrays of positions in the part and fixed-point weights.
-template <int Count>
-struct ChunkVotes {
-  std::int32_t index[Count][chunk_size];
-  std::int32_t weight[Count][chunk_size];
-};
-
-/// Axes of a part: three of its grid, and the histogram's where it has one.
+/// Axes of a part: three of its grid, and the histogram's where it has one. The votes of a point for it.
 template <class Part>
 inline constexpr int axes_of = Part::has_histogram ? 4 : 3;
-
 template <class Voting, class Part>
-inline void vote(const Chunk& chunk, const float (&signal)[chunk_size],
-                 ChunkVotes<Voting::template votes<axes_of<Part>>>& out) noexcept {
-  using simd::all;
-  using Grid = typename Part::Grid;
-  constexpr int axes = axes_of<Part>;
-  constexpr int count = Voting::template votes<axes>;
-  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
-    Share shares[axes];
-    shares[0] = Voting::template split<typename Part::RadialAxis>(
-        Part::Scale::template position<Grid::radial>(simd::load(chunk.distance + i)));
-    shares[1] = Voting::template split<typename Part::ElevationAxis>(simd::load(chunk.elevation + i) *
-                                                                     all(static_cast<float>(Grid::elevation)));
-    shares[2] = Voting::template split<typename Part::AzimuthAxis>(simd::load(chunk.azimuth + i) *
-                                                                   all(static_cast<float>(Grid::azimuth)));
-    if constexpr (Part::has_histogram) {
-      shares[3] = Voting::template split<typename Part::SignalAxis>(simd::load(signal + i) *
-                                                                    all(static_cast<float>(Part::Signal::bins)));
-    }
-    const Votes<count> votes = Voting::combine(shares);
-    const simd::F32 scale = simd::load(chunk.scale + i);
-    unroll<count>([&](auto k) {
-      simd::store(out.index[k] + i, truncate_to_int(votes.index[k]));
-      simd::store(out.weight[k] + i, round_to_int(votes.weight[k] * scale));
-    });
+inline constexpr int votes_of = Voting::template votes<axes_of<Part>>;
+
+/// Positions along an axis, fixed-point, from fractions of it.
+template <class Axis>
+[[nodiscard]] inline simd::I32 positions(simd::F32 fractions) noexcept {
+  return truncate_to_int(fractions * simd::all(static_cast<float>(Axis::cells) * Axis::one));
+}
+
+/// The signal of Occupancy: none.
+struct NoSignal {
+  template <class Colors>
+  explicit NoSignal(const Colors&) noexcept {}
+};
+
+/// The signal of ColorDistance: how far neighbours' colours are from the key point's.
+template <class Colors>
+struct ColorSignal {
+  Colors colors;  // a copy: no store to the chunk can change it
+  LabLanes reference;
+  explicit ColorSignal(const Colors& source) noexcept : colors(source), reference(in_all_lanes(source.reference)) {}
+  [[nodiscard]] simd::F32 operator()(const Chunk& chunk, std::uint32_t i) const noexcept {
+    return color_distances(colors_at(colors, chunk.index + i), reference);
+  }
+};
+
+/// The votes of one register of neighbours, from `i` on, for a part.
+template <class Voting, class Part, class Signal>
+[[nodiscard, gnu::always_inline]] inline auto vote(const Chunk& chunk, std::uint32_t i, const Signal& signal,
+                                                   const VoteUnit& unit) noexcept {
+  using R = typename Part::RadialAxis;
+  using E = typename Part::ElevationAxis;
+  using A = typename Part::AzimuthAxis;
+  const simd::F32 shells = Part::Scale::template position<R::cells>(simd::load(chunk.distance + i), R::one);
+  const Share r = Voting::template split<R>(truncate_to_int(shells), unit);
+  const Share e = Voting::template split<E>(positions<E>(simd::load(chunk.elevation + i)), unit);
+  const Share a = Voting::template split<A>(positions<A>(simd::load(chunk.azimuth + i)), unit);
+  if constexpr (Part::has_histogram) {
+    using S = typename Part::SignalAxis;
+    const Share s = Voting::template split<S>(positions<S>(signal(chunk, i)), unit);
+    return Voting::template combine<R, E, A, S>({r, e, a, s}, unit);
+  } else {
+    return Voting::template combine<R, E, A>({r, e, a}, unit);
   }
 }
 
@@ -138,29 +93,55 @@ inline void add_bits(float* value, std::int32_t weight) noexcept {
   std::memcpy(value, &sum, sizeof sum);
 }
 
+/// The votes of a chunk, lane-wise: `Count` arrays of positions in the part, and as many of weights.
+template <int Count>
+struct ChunkVotes {
+  std::int32_t index[Count * chunk_size];
+  std::int32_t weight[Count * chunk_size];
+};
+
+/// Neighbours that follow each other lie in the same cells, and each addition would wait for the one before: in a full
+/// chunk, four from different places are taken in turn.
 template <int Count>
 inline void scatter(const ChunkVotes<Count>& votes, std::uint32_t size, float* part) noexcept {
-  for (std::uint32_t i = 0; i < size; ++i) {
-    unroll<Count>([&](auto k) { add_bits(part + votes.index[k][i], votes.weight[k][i]); });
+  const auto add = [&](std::uint32_t i) {
+    unroll<Count>([&](auto k) { add_bits(part + votes.index[k * chunk_size + i], votes.weight[k * chunk_size + i]); });
+  };
+  std::uint32_t done = 0;
+  if (size == chunk_size) {
+    constexpr std::uint32_t quarter = chunk_size / 4;
+    for (std::uint32_t i = 0; i < quarter; ++i) unroll<4>([&](auto k) { add(i + k * quarter); });
+    done = size;
   }
+  for (std::uint32_t i = done; i < size; ++i) add(i);
 }
 
-/// One chunk into one part.
+/// One chunk into one part. Votes go through memory: taken out of registers lane by lane they would cost twice as much.
 template <class Voting, class Part, class Colors>
-inline void accumulate(const Neighborhood& n, const Colors& colors, const Chunk& chunk, float* part) noexcept {
-  ChunkVotes<Voting::template votes<axes_of<Part>>> votes;
-  float signal[chunk_size];
-  if constexpr (Part::Signal::needs_colors) measure_colors(n, colors, chunk, signal);
-  vote<Voting, Part>(chunk, signal, votes);
-  scatter(votes, chunk.size, part);
+inline void accumulate(const Chunk& chunk, const Colors& colors, VoteUnit unit, float* part) noexcept {
+  using Signal = std::conditional_t<Part::Signal::needs_colors, ColorSignal<Colors>, NoSignal>;
+  const Signal signal(colors);
+  const std::uint32_t size = chunk.size;
+  constexpr int count = votes_of<Voting, Part>;
+  ChunkVotes<count> votes;
+  for (std::uint32_t i = 0; i < size; i += simd::lanes) {
+    const Votes<count> now = vote<Voting, Part>(chunk, i, signal, unit);
+    std::int32_t* const index = votes.index + i;
+    std::int32_t* const weight = votes.weight + i;
+    unroll<count>([&](auto k) {
+      simd::store(index + k * chunk_size, now.index[k]);
+      simd::store(weight + k * chunk_size, now.weight[k]);
+    });
+  }
+  scatter(votes, size, part);
 }
 
 template <class Voting, class... Parts, class Colors>
-inline void accumulate_all(Descriptor<Voting, Parts...>, const Neighborhood& n, const Colors& colors,
-                           const Chunk& chunk, float* out) noexcept {
+inline void accumulate_all(Descriptor<Voting, Parts...>, const Chunk& chunk, const Colors& colors, VoteUnit unit,
+                           float* out) noexcept {
   using D = Descriptor<Voting, Parts...>;
   int part = 0;
-  (accumulate<Voting, Parts>(n, colors, chunk, out + D::offset(part++)), ...);
+  (accumulate<Voting, Parts>(chunk, colors, unit, out + D::offset(part++)), ...);
 }
 
 /// Integers to floats of L2 norm 1. Squares are added up in eight places, whatever the number of lanes: the same order,
@@ -218,12 +199,11 @@ template <class D, class Colors>
   if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
   if (status != Status::ok) return status;
 
+  const VoteUnit unit = detail::vote_unit<D::position_bits>(n.size);
   detail::Chunk chunk;
-  for (chunk.first = 0; chunk.first < n.size; chunk.first += detail::chunk_size) {
-    const std::uint32_t rest = n.size - chunk.first;
-    chunk.size = rest < detail::chunk_size ? rest : detail::chunk_size;
-    detail::locate(n, frame, radius, chunk);
-    detail::accumulate_all(D{}, n, colors, chunk, out);
+  for (std::uint32_t first = 0; first < n.size; first += detail::chunk_size) {
+    detail::locate<D::shell_borders>(n, first, frame, radius, chunk);
+    detail::accumulate_all(D{}, chunk, colors, unit, out);
   }
   return detail::normalize<D::size>(out);
 }

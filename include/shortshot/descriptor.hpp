@@ -29,6 +29,18 @@ struct ColorDistance {
   using Rule = LabRule;
 };
 
+namespace detail {
+
+/// The largest e such that positions up to any of these numbers of cells, times 2^e, are at most 2^30.
+template <class... Cells>
+constexpr int position_bits(Cells... cells) noexcept {
+  int bits = 30;
+  for (int covered = 1; ((covered < cells) || ...); covered *= 2) --bits;
+  return bits;
+}
+
+}  // namespace detail
+
 /// A spherical grid with a histogram of one signal in every cell.
 /// Layout: histogram bin fastest, then radius, elevation, azimuth.
 template <class GridType, class SignalType, class RadiusScale = LinearRadius>
@@ -44,10 +56,13 @@ struct Part {
     return bin + Signal::bins * Grid::index(r, e, a);
   }
 
-  using RadialAxis = Axis<Grid::radial, Signal::bins, Beyond::nothing>;
-  using ElevationAxis = Axis<Grid::elevation, Signal::bins * Grid::radial, Beyond::nothing>;
-  using AzimuthAxis = Axis<Grid::azimuth, Signal::bins * Grid::radial * Grid::elevation, Beyond::first_cell>;
-  using SignalAxis = Axis<Signal::bins, 1, Beyond::nothing>;
+  /// Bits of positions behind the point: what int32 has room for on the finest axis. No bit of a float is lost that
+  /// could matter.
+  static constexpr int bits = detail::position_bits(Grid::radial, Grid::elevation, Grid::azimuth, Signal::bins);
+  using RadialAxis = Axis<Grid::radial, Signal::bins, Beyond::nothing, bits, Scale::below_zero>;
+  using ElevationAxis = Axis<Grid::elevation, Signal::bins * Grid::radial, Beyond::nothing, bits>;
+  using AzimuthAxis = Axis<Grid::azimuth, Signal::bins * Grid::radial * Grid::elevation, Beyond::first_cell, bits>;
+  using SignalAxis = Axis<Signal::bins, 1, Beyond::nothing, bits>;
 };
 
 namespace detail {
@@ -66,6 +81,14 @@ struct LabRuleOf<Signal, Others...> {
   using type = std::conditional_t<std::is_void<Mine>::value, Next, Mine>;
 };
 
+/// The smallest common multiple, up to 2^20: as far as floats tell multiples of its inverse apart.
+constexpr int common_multiple(int a, int b) noexcept {
+  constexpr int most = 1 << 20;
+  int multiple = a;
+  while (multiple % b != 0 && multiple < most - a) multiple += a;
+  return multiple % b == 0 ? multiple : most;
+}
+
 }  // namespace detail
 
 /// A descriptor: its parts one after the other, filled by one voting rule and normalised together to L2 norm 1.
@@ -81,6 +104,21 @@ struct Descriptor {
 
   static constexpr bool needs_colors = (Parts::Signal::needs_colors || ...);
   using LabRule = typename detail::LabRuleOf<typename Parts::Signal...>::type;
+
+  /// Fewest bits behind the point of positions along its axes.
+  static constexpr int position_bits = [] {
+    int bits = 30;
+    ((bits = Parts::bits < bits ? Parts::bits : bits), ...);
+    return bits;
+  }();
+
+  /// All borders and middles of its shells are multiples of R / shell_borders; 1: none that need more than a float's
+  /// bits.
+  static constexpr int shell_borders = [] {
+    int borders = 1;
+    ((borders = detail::common_multiple(borders, Parts::Scale::borders(Parts::Grid::radial))), ...);
+    return borders;
+  }();
 
   /// First value of part `i` (of `parts` ones), and the end of the last part.
   static constexpr int parts = static_cast<int>(sizeof...(Parts));

@@ -13,15 +13,18 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// The largest power of two by which `n` numbers of magnitude up to 2^bits can be scaled so that no partial sum leaves
-/// int32, and each number has at most 22 bits (what simd::round_to_int() can take).
-[[nodiscard]] inline float fixed_point_scale(std::uint32_t n, int bits) noexcept {
+/// The largest e such that `n` numbers of magnitude up to 2^bits, times 2^e, can be added up in any order without
+/// leaving int32, and each has at most 22 bits (what simd::round_to_int() can take).
+[[nodiscard]] inline int fixed_point_exponent(std::uint32_t n, int bits) noexcept {
   int exponent = 30;
   for (std::uint32_t covered = 1; covered < n; covered *= 2) --exponent;
-  if (exponent > 22) exponent = 22;
-  exponent -= bits;
+  return (exponent > 22 ? 22 : exponent) - bits;
+}
+
+/// The same as a factor; 1 at least.
+[[nodiscard]] inline float fixed_point_scale(std::uint32_t n, int bits) noexcept {
   float scale = 1.0f;
-  for (; exponent > 0; --exponent) scale *= 2.0f;
+  for (int exponent = fixed_point_exponent(n, bits); exponent > 0; --exponent) scale *= 2.0f;
   return scale;
 }
 

@@ -27,11 +27,15 @@ struct SphericalGrid {
   [[nodiscard]] static constexpr int index(int r, int e, int a) noexcept { return r + Radial * (e + Elevation * a); }
 };
 
-/// Shells of equal width: the published default. `u` is the distance over the support radius, in [0, 1].
+/// Shells of equal width: the published default. `u` is the distance over the support radius, in [0, 1]; `shell` is how
+/// much one shell counts.
 struct LinearRadius {
+  static constexpr bool below_zero = false;
+  /// All borders and middles of shells are multiples of 1 / borders.
+  static constexpr int borders(int shells) noexcept { return 2 * shells; }
   template <int Shells>
-  [[nodiscard]] static simd::F32 position(simd::F32 u) noexcept {
-    return u * simd::all(static_cast<float>(Shells));
+  [[nodiscard]] static simd::F32 position(simd::F32 u, float shell) noexcept {
+    return u * simd::all(static_cast<float>(Shells) * shell);
   }
 };
 
@@ -41,14 +45,18 @@ template <int Numerator = 1, int Denominator = 4>
 struct LogRadius {
   static_assert(0 < Numerator && 100LL * Numerator <= 99LL * Denominator,
                 "LogRadius<N, D> supports ratios 0 < N / D <= 0.99");
+  static constexpr bool below_zero = true;
+  static constexpr int borders(int) noexcept { return 1; }  // in float's own rounding
   template <int Shells>
-  [[nodiscard]] static simd::F32 position(simd::F32 u) noexcept {
+  [[nodiscard]] static simd::F32 position(simd::F32 u, float shell) noexcept {
     const float log_of_ratio = math::log(static_cast<float>(Numerator) / static_cast<float>(Denominator));
     return simd::apply(
-        [log_of_ratio](float distance) {
+        [log_of_ratio, shell](float distance) {
           // Distances below the smallest normal number have no logarithm; any tiny one lies in the innermost shell.
           const float log_of_distance = math::log(distance > 1e-30f ? distance : 1e-30f);
-          return static_cast<float>(Shells - 1) * (log_of_distance - log_of_ratio) / -log_of_ratio + 1.0f;
+          const float p = static_cast<float>(Shells - 1) * (log_of_distance - log_of_ratio) / -log_of_ratio + 1.0f;
+          // Below zero, what counts is the rest of a shell: the cell is the innermost one anyway.
+          return (p < 0.0f ? p - static_cast<float>(static_cast<int>(p)) : p) * shell;
         },
         u);
   }

@@ -23,54 +23,39 @@ namespace math {
   return is_finite(v[0]) && is_finite(v[1]) && is_finite(v[2]);
 }
 
-/// atan(t) / 2 pi for t in [0, 1], within 2.3e-8 turns. A minimax fit with both ends exact: 0 -> 0 and 1 -> 1/8,
-/// because points on axes and diagonals lie on the borders of cells.
-[[nodiscard]] inline simd::F32 octant_turns(simd::F32 t) noexcept {
+/// The angle of (far, near), both >= 0, above the diagonal, in units of which a power of two make a turn: up to 1/8
+/// turn either way, within 6e-8. A minimax fit with both ends exact, because points on axes and diagonals lie on the
+/// borders of cells. Of (0, 0), or of what is not finite: -1/8.
+template <int UnitsPerTurn>
+[[nodiscard, gnu::always_inline]] inline simd::F32 angle_above_diagonal(simd::F32 far, simd::F32 near) noexcept {
   using simd::all;
+  constexpr auto unit = static_cast<float>(UnitsPerTurn);
+  // The tangent of an angle minus an eighth of a turn. max() gives its second argument where the first is NaN.
+  const simd::F32 t = simd::max((near - far) / (near + far), all(-1.0f));
   const simd::F32 s = t * t;
-  simd::F32 p = all(-0.0006326765287667513f);
-  p = p * s + all(0.003435686230659485f);
-  p = p * s + all(-0.008838068693876266f);
-  p = p * s + all(0.01530371978878975f);
-  p = p * s + all(-0.02212062105536461f);
-  p = p * s + all(0.03174300864338875f);
-  p = p * s + all(-0.053045883774757385f);
-  p = p * s + all(0.15915483236312866f);
+  simd::F32 p = all(unit * 0.00106037291698158f);
+  p = p * s + all(unit * -0.00527749117463827f);
+  p = p * s + all(unit * 0.0125921480357647f);
+  p = p * s + all(unit * -0.0210182461887598f);
+  p = p * s + all(unit * 0.0315139554440975f);
+  p = p * s + all(unit * -0.0530250333249569f);
+  p = p * s + all(unit * 0.159154295921326f);
   return p * t;
-}
-
-/// The angle of (x, y) split into a multiple of a quarter turn and a signed rest of at most an eighth, in turns, for
-/// y's absolute value: angle = quarter + rest lies in [0, 1/2]. Kept apart so that whoever adds an offset rounds once.
-struct HalfTurns {
-  simd::F32 quarter;
-  simd::F32 rest;
-};
-
-[[nodiscard]] inline HalfTurns half_turns(simd::F32 x, simd::F32 y) noexcept {
-  using simd::all;
-  const simd::F32 ax = simd::abs(x);
-  const simd::F32 ay = simd::abs(y);
-  // The smallest normal number stands in for 0 / 0: the angle of (0, 0) is 0.
-  const simd::F32 eighth = octant_turns(simd::min(ax, ay) / simd::max(simd::max(ax, ay), all(1.17549435e-38f)));
-  const simd::Mask steep = ay > ax;
-  const simd::Mask backward = x < all(0.0f);
-  const simd::F32 quarter = simd::select(steep, all(0.25f), simd::keep(backward, all(0.5f)));
-  return {quarter, simd::negate(steep ^ backward, eighth)};
 }
 
 /// The angle from the z axis, 0 at z > 0 to 1 at z < 0 (theta / pi); rho >= 0 is the distance from the axis.
 [[nodiscard]] inline simd::F32 elevation(simd::F32 rho, simd::F32 z) noexcept {
-  const HalfTurns half = half_turns(z, rho);
-  const simd::F32 turns = half.quarter + half.rest;
-  return turns + turns;
+  using simd::all;
+  const simd::F32 above_equator = angle_above_diagonal<2>(simd::abs(z), rho) - all(0.25f);  // of (rho, |z|): -1/2 to 0
+  return all(0.5f) + simd::flip_sign(above_equator, z);
 }
 
 /// (atan2(y, x) + pi) / 2 pi in [0, 1]: 1 for y = 0, x < 0.
 [[nodiscard]] inline simd::F32 azimuth(simd::F32 x, simd::F32 y) noexcept {
   using simd::all;
-  const HalfTurns half = half_turns(x, y);
-  const simd::Mask below = y < all(0.0f);
-  return (all(0.5f) + simd::negate(below, half.quarter)) + simd::negate(below, half.rest);
+  const simd::F32 before_quarter = angle_above_diagonal<1>(simd::abs(x), simd::abs(y)) - all(0.125f);  // -1/4 to 0
+  const simd::F32 half = all(0.25f) + simd::negate(x < all(0.0f), before_quarter);                     // 0 to 1/2
+  return all(0.5f) + simd::negate(y < all(0.0f), half);
 }
 
 /// Natural logarithm of a positive normal number, absolute error below 2e-7 near 1, relative below 2e-7 elsewhere.

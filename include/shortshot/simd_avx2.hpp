@@ -46,7 +46,9 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm256_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm256_sqrt_ps(a.v)}; }
-[[nodiscard]] inline F32 abs(F32 a) noexcept { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
+[[nodiscard]] inline F32 abs(F32 a) noexcept {
+  return {_mm256_and_ps(a.v, _mm256_castsi256_ps(_mm256_set1_epi32(0x7FFFFFFF)))};
+}
 [[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {_mm256_min_ps(a.v, b.v)}; }
 [[nodiscard]] inline F32 max(F32 a, F32 b) noexcept { return {_mm256_max_ps(a.v, b.v)}; }
 
@@ -75,6 +77,64 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 
 /// To the nearest integer, ties to even (the default rounding mode).
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm256_cvtps_epi32(a.v)}; }
+
+/// Lanes of integers.
+[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept {
+  return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))};
+}
+[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {_mm256_set1_epi32(value)}; }
+[[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {_mm256_sub_epi32(a.v, b.v)}; }
+[[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {_mm256_and_si256(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept {
+  return {_mm256_castsi256_ps(_mm256_cmpeq_epi32(a.v, b.v))};
+}
+[[nodiscard]] inline Mask operator>(I32 a, I32 b) noexcept {
+  return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(a.v, b.v))};
+}
+[[nodiscard]] inline I32 shift_left(I32 a, int count) noexcept {
+  return {_mm256_sll_epi32(a.v, _mm_cvtsi32_si128(count))};
+}
+/// Towards minus infinity.
+[[nodiscard]] inline I32 shift_right(I32 a, int count) noexcept {
+  return {_mm256_sra_epi32(a.v, _mm_cvtsi32_si128(count))};
+}
+/// For numbers from -1 to 2^15 - 1.
+[[nodiscard]] inline I32 small_min(I32 a, I32 b) noexcept { return {_mm256_min_epi16(a.v, b.v)}; }
+[[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {_mm256_max_epi16(a.v, b.v)}; }
+/// For a from -2^15, b from 0, to 2^15 - 1.
+[[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {_mm256_madd_epi16(a.v, b.v)}; }
+[[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {_mm256_castsi256_ps(_mm256_srai_epi32(a.v, 31))}; }
+/// -1 where m, else 1.
+[[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept {
+  return {_mm256_or_si256(_mm256_castps_si256(m.v), _mm256_set1_epi32(1))};
+}
+/// ~a where m, else a.
+[[nodiscard]] inline I32 invert(Mask m, I32 a) noexcept { return {_mm256_xor_si256(_mm256_castps_si256(m.v), a.v)}; }
+/// a where m, else zero.
+[[nodiscard]] inline I32 keep(Mask m, I32 a) noexcept { return {_mm256_and_si256(_mm256_castps_si256(m.v), a.v)}; }
+/// Zero where m, else a.
+[[nodiscard]] inline I32 drop(Mask m, I32 a) noexcept { return {_mm256_andnot_si256(_mm256_castps_si256(m.v), a.v)}; }
+/// -a where `sign` has its sign bit set, else a.
+[[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept {
+  return {_mm256_xor_ps(a.v, _mm256_and_ps(sign.v, _mm256_set1_ps(-0.0f)))};
+}
+
+/// The three floats at base + 3 * index[k], for all lanes.
+[[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
+                                                F32& c) noexcept {
+  const auto pair = [&](std::size_t k, std::size_t from) {  // (p[from], p[from + 1]) of lanes k and k + 1
+    const auto* const low = reinterpret_cast<const __m64*>(base + 3 * static_cast<std::size_t>(index[k]) + from);
+    const auto* const high = reinterpret_cast<const __m64*>(base + 3 * static_cast<std::size_t>(index[k + 1]) + from);
+    return _mm_loadh_pi(_mm_loadl_pi(_mm_setzero_ps(), low), high);
+  };
+  // Lanes 0, 1, 4, 5 and 2, 3, 6, 7, so that one shuffle in both halves brings them into order.
+  const auto pairs = [&](std::size_t k, std::size_t from) { return _mm256_set_m128(pair(k + 4, from), pair(k, from)); };
+  const __m256 ab[2] = {pairs(0, 0), pairs(2, 0)};
+  const __m256 bc[2] = {pairs(0, 1), pairs(2, 1)};
+  a = {_mm256_shuffle_ps(ab[0], ab[1], _MM_SHUFFLE(2, 0, 2, 0))};
+  b = {_mm256_shuffle_ps(bc[0], bc[1], _MM_SHUFFLE(2, 0, 2, 0))};
+  c = {_mm256_shuffle_ps(bc[0], bc[1], _MM_SHUFFLE(3, 1, 3, 1))};
+}
 
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA

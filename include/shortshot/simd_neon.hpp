@@ -76,6 +76,51 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 /// To the nearest integer, ties to even (the default rounding mode).
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {vcvtnq_s32_f32(a.v)}; }
 
+/// Lanes of integers.
+[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept { return {vld1q_s32(p)}; }
+[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {vdupq_n_s32(value)}; }
+[[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {vsubq_s32(a.v, b.v)}; }
+[[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {vandq_s32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {vceqq_s32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator>(I32 a, I32 b) noexcept { return {vcgtq_s32(a.v, b.v)}; }
+[[nodiscard]] inline I32 shift_left(I32 a, int count) noexcept { return {vshlq_s32(a.v, vdupq_n_s32(count))}; }
+/// Towards minus infinity.
+[[nodiscard]] inline I32 shift_right(I32 a, int count) noexcept { return {vshlq_s32(a.v, vdupq_n_s32(-count))}; }
+/// For numbers from -1 to 2^15 - 1.
+[[nodiscard]] inline I32 small_min(I32 a, I32 b) noexcept { return {vminq_s32(a.v, b.v)}; }
+[[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {vmaxq_s32(a.v, b.v)}; }
+/// For a from -2^15, b from 0, to 2^15 - 1.
+[[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {vmulq_s32(a.v, b.v)}; }
+[[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {vcltzq_s32(a.v)}; }
+/// -1 where m, else 1.
+[[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept {
+  return {vorrq_s32(vreinterpretq_s32_u32(m.v), vdupq_n_s32(1))};
+}
+/// ~a where m, else a.
+[[nodiscard]] inline I32 invert(Mask m, I32 a) noexcept { return {veorq_s32(vreinterpretq_s32_u32(m.v), a.v)}; }
+/// a where m, else zero.
+[[nodiscard]] inline I32 keep(Mask m, I32 a) noexcept { return {vandq_s32(vreinterpretq_s32_u32(m.v), a.v)}; }
+/// Zero where m, else a.
+[[nodiscard]] inline I32 drop(Mask m, I32 a) noexcept { return {vbicq_s32(a.v, vreinterpretq_s32_u32(m.v))}; }
+/// -a where `sign` has its sign bit set, else a.
+[[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept {
+  const uint32x4_t bit = vandq_u32(vreinterpretq_u32_f32(sign.v), vdupq_n_u32(0x80000000u));
+  return {vreinterpretq_f32_u32(veorq_u32(vreinterpretq_u32_f32(a.v), bit))};
+}
+
+/// The three floats at base + 3 * index[k], for all lanes.
+[[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
+                                                F32& c) noexcept {
+  float32x4x3_t abc{};
+  abc = vld3q_lane_f32(base + 3 * static_cast<std::size_t>(index[0]), abc, 0);
+  abc = vld3q_lane_f32(base + 3 * static_cast<std::size_t>(index[1]), abc, 1);
+  abc = vld3q_lane_f32(base + 3 * static_cast<std::size_t>(index[2]), abc, 2);
+  abc = vld3q_lane_f32(base + 3 * static_cast<std::size_t>(index[3]), abc, 3);
+  a = {abc.val[0]};
+  b = {abc.val[1]};
+  c = {abc.val[2]};
+}
+
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot

@@ -85,6 +85,42 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 /// the same bits on every machine, with no call into libm.
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {bits_of({a.v + 12582912.0f}).v - 0x4B400000}; }
 
+/// Lanes of integers.
+[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept { return {*p}; }
+[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {value}; }
+[[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {a.v - b.v}; }
+[[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {a.v & b.v}; }
+[[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {a.v == b.v}; }
+[[nodiscard]] inline Mask operator>(I32 a, I32 b) noexcept { return {a.v > b.v}; }
+[[nodiscard]] inline I32 shift_left(I32 a, int count) noexcept { return {a.v * (std::int32_t{1} << count)}; }
+/// Towards minus infinity (as every compiler we know shifts, and C++20 demands).
+[[nodiscard]] inline I32 shift_right(I32 a, int count) noexcept { return {a.v >> count}; }
+/// For numbers from -1 to 2^15 - 1.
+[[nodiscard]] inline I32 small_min(I32 a, I32 b) noexcept { return {a.v < b.v ? a.v : b.v}; }
+[[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {a.v > b.v ? a.v : b.v}; }
+/// For a from -2^15, b from 0, to 2^15 - 1.
+[[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
+[[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {a.v < 0}; }
+/// -1 where m, else 1.
+[[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept { return {m.v ? -1 : 1}; }
+/// ~a where m, else a.
+[[nodiscard]] inline I32 invert(Mask m, I32 a) noexcept { return {m.v ? ~a.v : a.v}; }
+/// a where m, else zero.
+[[nodiscard]] inline I32 keep(Mask m, I32 a) noexcept { return {m.v ? a.v : 0}; }
+/// Zero where m, else a.
+[[nodiscard]] inline I32 drop(Mask m, I32 a) noexcept { return {m.v ? 0 : a.v}; }
+/// -a where `sign` has its sign bit set, else a.
+[[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept { return {bits_of(sign).v < 0 ? -a.v : a.v}; }
+
+/// The three floats at base + 3 * index[k], for all lanes.
+[[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
+                                                F32& c) noexcept {
+  const float* const p = base + 3 * static_cast<std::size_t>(*index);
+  a = {p[0]};
+  b = {p[1]};
+  c = {p[2]};
+}
+
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot

@@ -12,13 +12,13 @@ inline namespace SHORTSHOT_ISA {
 namespace detail {
 
 template <class Function, int... I>
-inline void unroll(Function f, std::integer_sequence<int, I...>) noexcept {
+[[gnu::always_inline]] inline void unroll(Function f, std::integer_sequence<int, I...>) noexcept {
   (f(std::integral_constant<int, I>{}), ...);
 }
 
 /// f(0), f(1), ... f(Count - 1), each with its index as a compile-time constant.
 template <int Count, class Function>
-inline void unroll(Function f) noexcept {
+[[gnu::always_inline]] inline void unroll(Function f) noexcept {
   unroll(f, std::make_integer_sequence<int, Count>{});
 }
 

@@ -1,9 +1,13 @@
 // shortshot/voting.hpp: how one point is shared among neighbouring cells, written once over N axes.
 //
-// A rule has two steps. split() takes a position along one axis, in cells, and finds the cell it lies in and the nearer
+// A rule has two steps. split() takes a position along one axis and finds the cell it lies in and the nearer
 // neighbouring cell, its partner, with the share of each. combine() makes a list of votes from the shares of all axes:
 // axis 0 radius, 1 elevation, 2 azimuth, and 3 the histogram's signal where the part has one.
+//
+// All of it is integer arithmetic: shares are added up exactly, and indices need no conversion.
 #pragma once
+
+#include <cstdint>
 
 #include "config.hpp"
 #include "simd.hpp"
@@ -16,63 +20,88 @@ inline namespace SHORTSHOT_ISA {
 enum class Beyond { nothing, first_cell };
 
 /// One axis of a part: its number of cells, the distance of two neighbouring cells in the descriptor, and its ends.
-template <int Cells, int Stride, Beyond End>
+/// Positions along it are fixed-point numbers of cells with `Bits` bits behind the point. They may lie below zero, by
+/// as much as a cell, only where `BelowZero` says so.
+template <int Cells, int Stride, Beyond End, int Bits, bool BelowZero = false>
 struct Axis {
   static constexpr int cells = Cells;
   static constexpr int stride = Stride;
   static constexpr Beyond end = End;
+  static constexpr int bits = Bits;
+  static constexpr float one = static_cast<float>(std::int32_t{1} << Bits);  ///< a whole cell
+  static constexpr bool below_zero = BelowZero;
 };
 
-/// A point's share along one axis. Indices are whole numbers in floats: exact, and multiplied without integer lanes.
+/// The fixed-point unit of all votes: `one`, a power of two, is a whole share.
+struct VoteUnit {
+  int bits;
+  std::int32_t one;
+};
+
+/// A point's share along one axis.
 struct Share {
-  simd::F32 cell;     ///< index of the primary cell, times the axis' stride
-  simd::F32 partner;  ///< index of the partner cell minus that of the primary one; 0 where there is no partner
-  simd::F32 weight;   ///< the primary cell's share; the partner's is 1 - weight
-  simd::Mask has_partner;
+  simd::I32 cell;           ///< index of the primary cell, times the axis' stride
+  simd::I32 step;           ///< index of the partner cell minus that of the primary one; 0 where there is no partner
+  simd::I32 twice_partner;  ///< twice the partner's share in units, 0 to 1; the primary cell has the rest
+  simd::Mask alone;         ///< there is no partner: only where the axis ends
 };
 
-/// The votes of one point: `Count` indices into the part and their weights.
+/// The votes of one point: `Count` indices into the part and their weights, in units.
 template <int Count>
 struct Votes {
-  simd::F32 index[Count];
-  simd::F32 weight[Count];
+  simd::I32 index[Count];
+  simd::I32 weight[Count];
 };
 
 namespace detail {
 
-/// The cell of a position, clamped to the axis.
+/// The cell of a position. The very end of the axis is the upper border of the last cell.
 template <class Axis>
-[[nodiscard]] inline simd::F32 clamped_cell(simd::F32 position) noexcept {
-  const simd::F32 cell = simd::truncate(position);
-  return simd::max(simd::all(0.0f), simd::min(cell, simd::all(static_cast<float>(Axis::cells - 1))));
+[[nodiscard]] inline simd::I32 cell_of(simd::I32 position) noexcept {
+  const simd::I32 cell = simd::small_min(simd::shift_right(position, Axis::bits), simd::all(Axis::cells - 1));
+  return Axis::below_zero ? simd::small_max(cell, simd::all(0)) : cell;
 }
 
-/// The share of a position whose distance from its cell's lower border is `fraction` (in cells).
-template <class Axis>
-[[nodiscard]] inline Share share(simd::F32 cell, simd::F32 fraction) noexcept {
-  using simd::all;
-  constexpr auto stride = static_cast<float>(Axis::stride);
-  constexpr auto last = static_cast<float>(Axis::cells - 1);
-  const simd::F32 weight = all(1.0f) - simd::abs(fraction - all(0.5f));
-  const simd::F32 index = cell * all(stride);
-  if constexpr (Axis::cells == 1) return {index, all(0.0f), weight, all(1.0f) < all(0.0f)};
+template <int Factor>
+[[nodiscard]] inline simd::I32 times(simd::I32 a) noexcept {
+  if constexpr (Factor == 1) return a;
+  if constexpr (Factor < 32768) return simd::small_product(a, simd::all(Factor));
+  return simd::small_product(a, simd::all(Factor / 2)) + simd::small_product(a, simd::all(Factor - Factor / 2));
+}
 
-  const simd::Mask upper = fraction > all(0.5f);
-  const simd::F32 step = simd::negate(upper, all(-stride));
-  const simd::F32 neighbor = cell + simd::negate(upper, all(-1.0f));
+/// From a cell to the next one in a direction (1 or -1), around the ends.
+template <class Axis>
+[[nodiscard, gnu::always_inline]] inline simd::I32 next_around(simd::I32 cell, simd::I32 direction) noexcept {
+  using simd::all;
+  const simd::I32 next = cell + direction;
+  if constexpr ((Axis::cells & (Axis::cells - 1)) == 0) return next & all(Axis::cells - 1);
+  return (next + keep(is_negative(next), all(Axis::cells))) - keep(next > all(Axis::cells - 1), all(Axis::cells));
+}
+
+/// The share of a position in a cell: fraction 0 is the cell's lower border, 2^Axis::bits its upper one.
+template <class Axis>
+[[nodiscard, gnu::always_inline]] inline Share share(simd::I32 cell, simd::I32 fraction,
+                                                     const VoteUnit& unit) noexcept {
+  using simd::all;
+  constexpr std::int32_t half = std::int32_t{1} << (Axis::bits - 1);
+  const simd::I32 side = fraction - all(half + 1);
+  const simd::Mask lower = is_negative(side);  // the middle of the cell included
+  const simd::I32 direction = minus_one_or_one(lower);
+  // The partner's share is the distance from the middle; ~side = -side - 1 is what is left up to it.
+  const simd::I32 twice_partner = simd::shift_right(invert(lower, side), Axis::bits - unit.bits - 1);
+  const simd::I32 index = times<Axis::stride>(cell);
+  if constexpr (Axis::cells == 1) return {index, all(0), twice_partner, all(0) == all(0)};
   if constexpr (Axis::end == Beyond::first_cell) {
-    const simd::F32 around = all(static_cast<float>(Axis::cells) * stride);
-    const simd::F32 up = keep(all(0.0f) > neighbor, around);
-    const simd::F32 down = keep(neighbor > all(last), around);
-    return {index, (step + up) - down, weight, all(0.0f) < all(1.0f)};
+    const simd::I32 step = times<Axis::stride>(next_around<Axis>(cell, direction) - cell);
+    return {index, step, twice_partner, all(0) == all(1)};
   }
-  const simd::Mask inside = (neighbor >= all(0.0f)) & (all(last) >= neighbor);
-  return {index, keep(inside, step), weight, inside};
+  const simd::Mask alone = cell == drop(lower, all(Axis::cells - 1));  // first and lower, or last and upper
+  return {index, drop(alone, times<Axis::stride>(direction)), twice_partner, alone};
 }
 
 template <int Axes>
-[[nodiscard]] inline simd::F32 primary_index(const Share (&shares)[Axes]) noexcept {
-  simd::F32 index = shares[0].cell;
+[[nodiscard]] inline simd::I32 primary_index(const Share (&shares)[Axes]) noexcept {
+  simd::I32 index = shares[0].cell;
   unroll<Axes - 1>([&](auto i) { index = index + shares[i + 1].cell; });
   return index;
 }
@@ -92,32 +121,37 @@ struct AdditiveVoting {
   static constexpr int votes = Axes + 1;
 
   template <class Axis>
-  [[nodiscard]] static Share split(simd::F32 position) noexcept {
-    return detail::share<Axis>(detail::clamped_cell<Axis>(position), position - simd::truncate(position));
+  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
+    simd::I32 fraction = position & simd::all((std::int32_t{1} << Axis::bits) - 1);
+    if constexpr (Axis::below_zero) {
+      const simd::Mask below = is_negative(position);
+      fraction = keep(below, position) + drop(below, fraction);
+    }
+    return detail::share<Axis>(detail::cell_of<Axis>(position), fraction, unit);
   }
 
-  template <int Axes>
-  [[nodiscard]] static Votes<Axes + 1> combine(const Share (&shares)[Axes]) noexcept {
+  template <class... AllAxes>
+  [[nodiscard, gnu::always_inline]] static Votes<sizeof...(AllAxes) + 1> combine(
+      const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
     using simd::all;
-    simd::F32 sum = shares[0].weight;
-    detail::unroll<Axes - 1>([&](auto i) { sum = sum + shares[i + 1].weight; });
+    constexpr int axes = sizeof...(AllAxes);
+    constexpr bool may_be_alone[] = {AllAxes::cells == 1 || AllAxes::end == Beyond::nothing...};
+    simd::I32 twice_partners = shares[0].twice_partner;
+    detail::unroll<axes - 1>([&](auto i) { twice_partners = twice_partners + shares[i + 1].twice_partner; });
+    const simd::I32 sum = all(axes * unit.one) - simd::shift_right(twice_partners, 1);
+    const simd::I32 rest = sum - all(unit.one);
 
-    Votes<Axes + 1> votes;
+    Votes<axes + 1> votes;
     votes.index[0] = detail::primary_index(shares);
     votes.weight[0] = sum;
-    detail::unroll<Axes>([&](auto i) {
-      simd::F32 weight = sum + swap_share(shares[i]);
-      if (FlipRadius && i == 3) weight = weight + swap_share(shares[0]);
-      votes.index[i + 1] = votes.index[0] + shares[i].partner;
-      votes.weight[i + 1] = keep(shares[i].has_partner, weight);
+    detail::unroll<axes>([&](auto i) {
+      // A share 1 - p replaced by p.
+      simd::I32 weight = rest + shares[i].twice_partner;
+      if constexpr (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all(unit.one));
+      votes.index[i + 1] = votes.index[0] + shares[i].step;
+      votes.weight[i + 1] = may_be_alone[i] ? drop(shares[i].alone, weight) : weight;
     });
     return votes;
-  }
-
- private:
-  /// What a sum of shares changes by when a primary share w is replaced by its partner's, 1 - w.
-  [[nodiscard]] static simd::F32 swap_share(const Share& share) noexcept {
-    return simd::all(1.0f) - (share.weight + share.weight);
   }
 };
 
@@ -130,14 +164,15 @@ struct HardVoting {
   static constexpr int votes = 1;
 
   template <class Axis>
-  [[nodiscard]] static Share split(simd::F32 position) noexcept {
-    const simd::F32 index = detail::clamped_cell<Axis>(position) * simd::all(static_cast<float>(Axis::stride));
-    return {index, simd::all(0.0f), simd::all(1.0f), simd::all(1.0f) < simd::all(0.0f)};
+  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit&) noexcept {
+    using simd::all;
+    return {detail::times<Axis::stride>(detail::cell_of<Axis>(position)), all(0), all(0), all(0) == all(0)};
   }
 
-  template <int Axes>
-  [[nodiscard]] static Votes<1> combine(const Share (&shares)[Axes]) noexcept {
-    return {{detail::primary_index(shares)}, {simd::all(1.0f)}};
+  template <class... AllAxes>
+  [[nodiscard, gnu::always_inline]] static Votes<1> combine(const Share (&shares)[sizeof...(AllAxes)],
+                                                            const VoteUnit& unit) noexcept {
+    return {{detail::primary_index(shares)}, {simd::all(unit.one)}};
   }
 };
 
@@ -148,26 +183,32 @@ struct MultilinearVoting {
   static constexpr int votes = 1 << Axes;
 
   template <class Axis>
-  [[nodiscard]] static Share split(simd::F32 position) noexcept {
-    const simd::F32 cell = detail::clamped_cell<Axis>(position);
-    Share share = detail::share<Axis>(cell, position - cell);
-    share.weight = select(share.has_partner, share.weight, simd::all(1.0f));
+  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
+    const simd::I32 cell = detail::cell_of<Axis>(position);
+    Share share = detail::share<Axis>(cell, position - simd::shift_left(cell, Axis::bits), unit);
+    share.twice_partner = drop(share.alone, share.twice_partner);
     return share;
   }
 
-  template <int Axes>
-  [[nodiscard]] static Votes<(1 << Axes)> combine(const Share (&shares)[Axes]) noexcept {
-    Votes<(1 << Axes)> votes;
+  template <class... AllAxes>
+  [[nodiscard, gnu::always_inline]] static Votes<(1 << sizeof...(AllAxes))> combine(
+      const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
+    constexpr int axes = sizeof...(AllAxes);
+    const simd::F32 half = simd::all(0.5f / static_cast<float>(unit.one));
+    Votes<(1 << axes)> votes;
+    simd::F32 weight[1 << axes];
     votes.index[0] = detail::primary_index(shares);
-    votes.weight[0] = simd::all(1.0f);
-    detail::unroll<Axes>([&](auto axis) {
-      constexpr int half = 1 << decltype(axis)::value;
-      detail::unroll<half>([&](auto i) {
-        votes.index[half + i] = votes.index[i] + shares[axis].partner;
-        votes.weight[half + i] = votes.weight[i] * (simd::all(1.0f) - shares[axis].weight);
-        votes.weight[i] = votes.weight[i] * shares[axis].weight;
+    weight[0] = simd::all(static_cast<float>(unit.one));
+    detail::unroll<axes>([&](auto axis) {
+      constexpr int count = 1 << decltype(axis)::value;
+      const simd::F32 partner = to_float(shares[axis].twice_partner) * half;
+      detail::unroll<count>([&](auto i) {
+        votes.index[count + i] = votes.index[i] + shares[axis].step;
+        weight[count + i] = weight[i] * partner;
+        weight[i] = weight[i] - weight[count + i];
       });
     });
+    detail::unroll<(1 << axes)>([&](auto i) { votes.weight[i] = round_to_int(weight[i]); });
     return votes;
   }
 };

@@ -94,21 +94,36 @@ Steps step_over_borders(double step) {
   return steps;
 }
 
+/// The unit of votes in these tests.
+constexpr ss::VoteUnit unit_of_votes{19, 1 << 19};
+
+std::int32_t first_lane(const ss::simd::I32& value) {
+  std::int32_t lanes[ss::simd::lanes];
+  ss::simd::store(lanes, value);
+  return lanes[0];
+}
+
+/// A position in cells along an axis, split.
+template <class Voting, class Axis>
+ss::Share split(float cells) {
+  return Voting::template split<Axis>(ss::simd::all(static_cast<std::int32_t>(cells * Axis::one)), unit_of_votes);
+}
+
 /// The weights of all votes of one point at a position in cells, added up.
 template <class Voting, int R, int E, int A, int H>
 double sum_of_votes(float r, float e, float a, float h) {
   using Part = ss::Part<ss::SphericalGrid<R, E, A>, ss::ColorDistance<H>>;
-  const ss::Share shares[4] = {Voting::template split<typename Part::RadialAxis>(ss::simd::all(r)),
-                               Voting::template split<typename Part::ElevationAxis>(ss::simd::all(e)),
-                               Voting::template split<typename Part::AzimuthAxis>(ss::simd::all(a)),
-                               Voting::template split<typename Part::SignalAxis>(ss::simd::all(h))};
-  const auto votes = Voting::combine(shares);
+  using Radial = typename Part::RadialAxis;
+  using Elevation = typename Part::ElevationAxis;
+  using Azimuth = typename Part::AzimuthAxis;
+  using Signal = typename Part::SignalAxis;
+  const ss::Share shares[4] = {split<Voting, Radial>(r), split<Voting, Elevation>(e), split<Voting, Azimuth>(a),
+                               split<Voting, Signal>(h)};
+  const auto votes = Voting::template combine<Radial, Elevation, Azimuth, Signal>(shares, unit_of_votes);
   double sum = 0.0;
-  for (const ss::simd::F32& weight : votes.weight) {
-    float lanes[ss::simd::lanes];
-    ss::simd::store(lanes, weight);
-    CHECK(lanes[0] >= 0.0f);
-    sum += static_cast<double>(lanes[0]);
+  for (const ss::simd::I32& weight : votes.weight) {
+    CHECK(first_lane(weight) >= 0);
+    sum += first_lane(weight) / static_cast<double>(unit_of_votes.one);
   }
   return sum;
 }
@@ -121,7 +136,7 @@ void check_partition_of_unity(Random& random) {
       return t * static_cast<float>(cells);
     };
     const float r = position(R), e = position(E), a = position(A), h = position(H);
-    REQUIRE(std::abs(sum_of_votes<Voting, R, E, A, H>(r, e, a, h) - 1.0) < 1e-6);  // sixteen float products
+    REQUIRE(std::abs(sum_of_votes<Voting, R, E, A, H>(r, e, a, h) - 1.0) < 16 * 0.5 / (1 << 19));  // sixteen roundings
   }
 }
 
@@ -190,20 +205,15 @@ TEST_CASE("voting: phi of exactly +180 degrees is the last cell; its partner is 
 }
 
 TEST_CASE("voting: the very middle of a cell has the lower neighbour for a partner") {
-  using Axis = ss::Axis<4, 10, ss::Beyond::nothing>;
-  const auto lane = [](const ss::simd::F32& value) {
-    float lanes[ss::simd::lanes];
-    ss::simd::store(lanes, value);
-    return lanes[0];
-  };
+  using Axis = ss::Axis<4, 10, ss::Beyond::nothing, 27>;
   const auto check_rule = [&](auto voting) {
     using Voting = decltype(voting);
-    const ss::Share middle = Voting::template split<Axis>(ss::simd::all(1.5f));
-    CHECK(lane(middle.cell) == 10.0f);
-    CHECK(lane(middle.partner) == -10.0f);
-    CHECK(lane(middle.weight) == 1.0f);
-    const ss::Share above = Voting::template split<Axis>(ss::simd::all(1.50001f));
-    CHECK(lane(above.partner) == 10.0f);
+    const ss::Share middle = split<Voting, Axis>(1.5f);
+    CHECK(first_lane(middle.cell) == 10);
+    CHECK(first_lane(middle.step) == -10);
+    CHECK(first_lane(middle.twice_partner) == 0);
+    const ss::Share above = split<Voting, Axis>(std::nextafter(1.5f, 2.0f));
+    CHECK(first_lane(above.step) == 10);
   };
   check_rule(ss::PublishedVoting{});
   check_rule(ss::MultilinearVoting{});

@@ -1,0 +1,134 @@
+// shortshot/locate.hpp: the kernel's first pass. A chunk of neighbours goes from offsets in the cloud's coordinates to
+// spherical coordinates in the frame.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+#include "config.hpp"
+#include "frame.hpp"
+#include "math.hpp"
+#include "neighborhood.hpp"
+#include "simd.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// Neighbours per chunk. The arrays of a chunk are all the stack that the kernel uses beyond a few registers.
+inline constexpr std::uint32_t chunk_size = 64;
+static_assert(chunk_size % simd::lanes == 0, "registers do not reach beyond the end of a chunk");
+
+/// A chunk of neighbours in the frame's spherical coordinates. Only those that are described: passes need no masks.
+struct Chunk {
+  std::uint32_t size;
+  std::uint32_t index[chunk_size];  ///< in the cloud
+  float distance[chunk_size];       ///< over the radius, 0..1
+  float elevation[chunk_size];      ///< angle from +z over pi, 0..1
+  float azimuth[chunk_size];        ///< angle from -x, counter-clockwise, in turns, 0..1
+};
+
+/// Closest squared distance that is described: the published code skips the key point and its copies by this bound.
+inline constexpr float min_described_d2 = 1e-15f;
+
+/// Is a neighbour with this squared distance described? Those beyond the radius are there for a wider frame.
+[[nodiscard]] inline bool is_described(float d2, Radius radius) noexcept {
+  return d2 > min_described_d2 && d2 < radius.squared;
+}
+[[nodiscard]] inline simd::Mask are_described(simd::F32 d2, Radius radius) noexcept {
+  return (d2 > simd::all(min_described_d2)) & (d2 < simd::all(radius.squared));
+}
+
+/// Which of these distances (over the radius) are as close to the border or the middle of a shell as their rounding?
+/// All of both are multiples of 1 / `Borders`.
+template <int Borders>
+[[nodiscard]] inline simd::Mask near_border(simd::F32 distance) noexcept {
+  const simd::F32 position = distance * simd::all(static_cast<float>(Borders));
+  const simd::F32 nearest = to_float(round_to_int(position));
+  return simd::all(1e-6f * static_cast<float>(Borders)) > simd::abs(position - nearest);
+}
+
+/// One register of coordinates in the frame, each rounded as the published code rounds it: x + z first, then y.
+struct Local {
+  simd::F32 x, y, z;
+};
+
+/// An axis of a frame in all lanes.
+struct AxisLanes {
+  simd::F32 x, y, z;
+  explicit AxisLanes(const float (&axis)[3]) noexcept
+      : x(simd::all(axis[0])), y(simd::all(axis[1])), z(simd::all(axis[2])) {}
+  [[nodiscard]] simd::F32 along(const Offsets& v) const noexcept { return (v.dx * x + v.dz * z) + v.dy * y; }
+};
+
+/// Distances over the radius. Points of a regular grid lie exactly on the borders of shells, where one bit decides
+/// which neighbouring shell gets a vote: there, and only there, they are computed with more bits than a float has.
+template <int Borders>
+[[nodiscard, gnu::always_inline]] inline simd::F32 relative_distance(const Offsets& v, const Local& local,
+                                                                     Radius radius) noexcept {
+  const simd::F32 inverse = simd::all(1.0f / radius.value);
+  const simd::F32 distance = simd::sqrt(v.d2) * inverse;
+  if constexpr (Borders > 1) {
+    const simd::Mask near = near_border<Borders>(distance);
+    if (any(near)) {
+      const float splitter = math::length_splitter(radius.value);
+      const simd::F32 exact = math::length(local.x, local.y, local.z, splitter) * inverse;
+      return select(near, simd::min(exact, simd::all(1.0f)), distance);
+    }
+  }
+  return distance;
+}
+
+/// The indices of a register of neighbours, from `first` on.
+inline void copy_indices(const Neighborhood& n, std::uint32_t first, std::uint32_t* index) noexcept {
+  if (n.size - first >= simd::lanes) {
+    std::memcpy(index, n.index + first, simd::lanes * sizeof *index);
+  } else {
+    for (std::uint32_t k = 0; k < n.size - first; ++k) index[k] = n.index[first + k];
+  }
+}
+
+/// Keep the described ones of a register of neighbours that was stored in a chunk from `size` on: its new size.
+[[nodiscard]] inline std::uint32_t append_described(const Neighborhood& n, std::uint32_t first, Radius radius,
+                                                    Chunk& chunk, std::uint32_t size) noexcept {
+  const std::uint32_t end = n.size - first < simd::lanes ? n.size : first + static_cast<std::uint32_t>(simd::lanes);
+  std::uint32_t from = size;
+  for (std::uint32_t i = first; i < end; ++i, ++from) {
+    if (!is_described(n.d2[i], radius)) continue;
+    chunk.index[size] = chunk.index[from];
+    chunk.distance[size] = chunk.distance[from];
+    chunk.elevation[size] = chunk.elevation[from];
+    chunk.azimuth[size] = chunk.azimuth[from];
+    ++size;
+  }
+  return size;
+}
+
+/// Neighbours from `first` on into a chunk.
+template <int Borders>
+inline void locate(const Neighborhood& all, std::uint32_t first, const Frame& frame, Radius radius,
+                   Chunk& chunk) noexcept {
+  const Neighborhood n = all;  // a local: no store to the chunk can change its pointers
+  const AxisLanes x_axis(frame.x);
+  const AxisLanes y_axis(frame.y);
+  const AxisLanes z_axis(frame.z);
+  const std::uint32_t end = n.size - first < chunk_size ? n.size : first + chunk_size;
+  std::uint32_t size = 0;
+  for (std::uint32_t i = first; i < end; i += simd::lanes) {
+    const Offsets v = load_offsets(n, i);
+    const Local local{x_axis.along(v), y_axis.along(v), z_axis.along(v)};
+    simd::store(chunk.distance + size, relative_distance<Borders>(v, local, radius));
+    simd::store(chunk.elevation + size, math::elevation(simd::sqrt(local.x * local.x + local.y * local.y), local.z));
+    simd::store(chunk.azimuth + size, math::azimuth(local.x, local.y));
+    copy_indices(n, i, chunk.index + size);
+    size = every(are_described(v.d2, radius)) ? size + static_cast<std::uint32_t>(simd::lanes)
+                                              : append_described(n, i, radius, chunk, size);
+  }
+  chunk.size = size;
+  // What passes read beyond the end must be colours that exist.
+  for (; size % simd::lanes != 0; ++size) chunk.index[size] = n.index[first];
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
