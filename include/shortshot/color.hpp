@@ -90,28 +90,55 @@ struct PclLab {
   }
 };
 
-/// sRGB bytes to CIELAB by `Rule` (PublishedLab or PclLab). Source: what the published SSH / SCSH code and PCL 1.13
-/// compute; within 1e-4 of either in L, a and b. No allocation, reentrant.
-template <class Rule>
-[[nodiscard]] inline Lab to_lab(Rgb rgb) noexcept {
-  const float r = detail::srgb_to_linear[rgb.r];
-  const float g = detail::srgb_to_linear[rgb.g];
-  const float b = detail::srgb_to_linear[rgb.b];
+namespace detail {
+
+/// The CIE ratios X / Xn, Y / Yn and Z / Zn of a colour in whole steps of 1 / 4000: positions in the published tables.
+struct RatioSteps {
+  int x, y, z;
+};
+
+[[nodiscard]] constexpr RatioSteps ratio_steps(Rgb rgb) noexcept {
+  const float r = srgb_to_linear[rgb.r];
+  const float g = srgb_to_linear[rgb.g];
+  const float b = srgb_to_linear[rgb.b];
   const float x = (r * 0.412453f + g * 0.357580f + b * 0.180423f) / 0.95047f;
   const float y = r * 0.212671f + g * 0.715160f + b * 0.072169f;
   const float z = (r * 0.019334f + g * 0.119193f + b * 0.950227f) / 1.08883f;
+  return {static_cast<int>(x * 4000.0f), static_cast<int>(y * 4000.0f), static_cast<int>(z * 4000.0f)};
+}
 
-  // Truncated to a table's step, as published.
-  const auto root = [](float ratio) {
-    return Rule::root(static_cast<float>(static_cast<int>(ratio * 4000.0f)) / 4000.0f);
-  };
-  const float fx = root(x);
-  const float fy = root(y);
-  const float fz = root(z);
+/// The last step that a colour can have. The ratios grow with each of the three bytes: no colour is beyond white.
+inline constexpr int last_ratio_step = 4000;
+static_assert(ratio_steps({255, 255, 255}).x <= last_ratio_step && ratio_steps({255, 255, 255}).y <= last_ratio_step &&
+                  ratio_steps({255, 255, 255}).z <= last_ratio_step,
+              "white has the largest ratios");
 
+/// The root that `Rule` takes of a ratio of `step` / 4000.
+template <class Rule>
+[[nodiscard]] inline float root_of_step(int step) noexcept {
+  return Rule::root(static_cast<float>(step) / 4000.0f);
+}
+
+/// CIELAB of a colour; root(step) is the root of a ratio, computed or from a table of them.
+template <class Root>
+[[nodiscard]] inline Lab lab_by(const Root& root, Rgb rgb) noexcept {
+  const RatioSteps steps = ratio_steps(rgb);
+  const float fx = root(steps.x);
+  const float fy = root(steps.y);
+  const float fz = root(steps.z);
   const auto clamped = [](float value) { return value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
   const float lightness = 116.0f * fy - 16.0f;
   return {lightness > 100.0f ? 100.0f : lightness, clamped(500.0f * (fx - fy)), clamped(200.0f * (fy - fz))};
+}
+
+}  // namespace detail
+
+/// sRGB bytes to CIELAB by `Rule` (PublishedLab or PclLab). Source: what the published SSH / SCSH code and PCL 1.13
+/// compute; within 1e-4 of either in L, a and b. No allocation, reentrant. LabTable (lab_table.hpp) gives the same bits
+/// several times faster, for 16 KB.
+template <class Rule>
+[[nodiscard]] inline Lab to_lab(Rgb rgb) noexcept {
+  return detail::lab_by(detail::root_of_step<Rule>, rgb);
 }
 
 /// Lanes of CIELAB colours.

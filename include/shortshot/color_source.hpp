@@ -8,6 +8,7 @@
 #include "cloud.hpp"
 #include "color.hpp"
 #include "config.hpp"
+#include "packed_lab.hpp"
 #include "simd.hpp"
 #include "status.hpp"
 
@@ -25,13 +26,17 @@ struct RgbColors {
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return to_lab<LabRule>(color(cloud, index)); }
 };
 
-/// The same from an array that holds each point's Lab, converted once for the whole cloud by convert_colors().
-struct LabColors {
-  const Lab* lab;  ///< one per point of the cloud, borrowed
+/// The same from an array that holds each point's colour, converted once for the whole cloud by convert_colors().
+template <class Color>
+struct StoredColors {
+  const Color* lab;  ///< one per point of the cloud, borrowed
   Lab reference;
   [[nodiscard]] Status status() const noexcept { return lab != nullptr ? Status::ok : Status::missing_colors; }
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return lab[index]; }
 };
+
+using LabColors = StoredColors<Lab>;           ///< 12 bytes a point
+using PackedColors = StoredColors<PackedLab>;  ///< 4 bytes a point; for its error see PackedLab
 
 /// For descriptors without colour.
 struct NoColors {
@@ -57,14 +62,25 @@ template <class Colors>
   return lab;
 }
 
-/// Convert all colours of a cloud into `lab` (cloud.size elements of the caller's). Statuses: empty_cloud, bad_view,
-/// missing_colors.
-template <class LabRule>
-[[nodiscard]] inline Status convert_colors(const CloudView& cloud, Lab* lab) noexcept {
+namespace detail {
+
+/// Colours [begin, end) of a cloud, each converted by convert(rgb).
+template <class Convert, class Color>
+inline void convert_range(const CloudView& cloud, std::size_t begin, std::size_t end, const Convert& convert,
+                          Color* lab) noexcept {
+  for (std::size_t i = begin; i < end; ++i) lab[i] = convert(color(cloud, i));
+}
+
+}  // namespace detail
+
+/// Convert all colours of a cloud into `lab`: cloud.size elements of the caller's, each a Lab or a PackedLab. Statuses:
+/// empty_cloud, bad_view, missing_colors. No allocation.
+template <class LabRule, class Color>
+[[nodiscard]] inline Status convert_colors(const CloudView& cloud, Color* lab) noexcept {
   const Status usable = check(cloud);
   if (usable != Status::ok) return usable;
   if (!has_colors(cloud)) return Status::missing_colors;
-  for (std::size_t i = 0; i < cloud.size; ++i) lab[i] = to_lab<LabRule>(color(cloud, i));
+  detail::convert_range(cloud, 0, cloud.size, to_lab<LabRule>, lab);
   return Status::ok;
 }
 

@@ -11,6 +11,7 @@ shortshot::Workspace<max_neighbors> workspace;
 shortshot::StaticGrid<max_points, 1024> grid;
 shortshot::OrganizedSearch image;
 float descriptor[shortshot::Scsh696::size];
+shortshot::PackedLab colors[max_points];
 
 using Multilinear = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::MultilinearVoting>;
 using Hard = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::HardVoting, shortshot::LogRadius<>>;
@@ -22,6 +23,20 @@ shortshot::Status describe(const shortshot::CloudView& cloud, const Search& sear
   return shortshot::describe_at<D>(cloud, search, index, radius, workspace, descriptor);
 }
 
+/// With colours that were converted before, in a given frame.
+shortshot::Status describe_packed(const shortshot::CloudView& cloud, std::size_t index, float radius) {
+  using shortshot::Status;
+  using Rule = shortshot::PublishedLab;
+  const shortshot::KeyPoint key = shortshot::keypoint(cloud, index);
+  const shortshot::Frame frame{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+  shortshot::Neighborhood n = shortshot::neighborhood_in(workspace);
+  Status status = shortshot::convert_colors<Rule>(cloud, colors);
+  if (status == Status::ok) status = grid.gather(key.position, radius, n);
+  if (status != Status::ok) return status;
+  const shortshot::PackedColors source{colors, shortshot::to_lab<Rule>(key.color)};
+  return shortshot::describe<shortshot::Scsh336>(n, source, frame, radius, descriptor);
+}
+
 }  // namespace
 
 extern "C" const float* describe_patch(const float* xyz, const unsigned char* rgb, std::size_t count, std::size_t width,
@@ -31,6 +46,7 @@ extern "C" const float* describe_patch(const float* xyz, const unsigned char* rg
   Status status = grid.build(cloud, radius);
   if (status == Status::ok) status = describe<shortshot::Ssh32>(cloud, grid, index, radius);
   if (status == Status::ok) status = describe<shortshot::Scsh336>(cloud, grid, index, radius);
+  if (status == Status::ok) status = describe_packed(cloud, index, radius);
   if (status == Status::ok) status = describe<shortshot::Scsh696>(cloud, shortshot::BruteSearch{cloud}, index, radius);
   if (status == Status::ok) status = image.build(shortshot::organized(cloud, width, count / width));
   if (status == Status::ok) status = describe<Multilinear>(cloud, image, index, radius);

@@ -64,4 +64,11 @@ shortshot::Status wrong_rule(const shortshot::Neighborhood& n, const shortshot::
 shortshot::Status no_colors(const shortshot::Neighborhood& n, float* out) {
   return shortshot::describe<shortshot::Scsh336>(n, shortshot::NoColors{}, {}, 0.1f, out);
 }
+#elif CASE == 16
+shortshot::Status no_executor(const shortshot::CloudView& cloud, shortshot::Features<shortshot::Ssh32>& out) {
+  const std::vector<int> keypoints;
+  return shortshot::extract(cloud, shortshot::BruteSearch{cloud}, keypoints, 0.1f, out, 2.0f);
+}
+#elif CASE == 17
+shortshot::Features<shortshot::Scsh336, shortshot::Rgb> features;
 #endif

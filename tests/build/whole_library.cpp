@@ -27,13 +27,23 @@ struct Message {
   bool is_bigendian;
 };
 
+struct Executor {
+  static int threads() { return 1; }
+  template <class Work>
+  void run(const Work& work) {
+    work();
+  }
+};
+
 template <class D, class Search>
 std::size_t describe(const shortshot::CloudView& cloud, const Search& search) {
   std::vector<std::uint32_t> keypoints;
   shortshot::Features<D> features;
   if (shortshot::sample_uniform(cloud, 0.1f, keypoints) != shortshot::Status::ok) return 0;
-  const shortshot::Status status = shortshot::extract<D>(cloud, search, keypoints, 0.1f, features, 2);
-  return status == shortshot::Status::ok ? features.size() : 0;
+  if (shortshot::extract<D>(cloud, search, keypoints, 0.1f, features, 2) != shortshot::Status::ok) return 0;
+  shortshot::Features<D, shortshot::PackedLab> packed;
+  if (shortshot::extract<D>(cloud, search, keypoints, 0.1f, packed, Executor{}) != shortshot::Status::ok) return 0;
+  return features.size() + packed.size();
 }
 
 std::size_t describe_all(const shortshot::CloudView& cloud) {

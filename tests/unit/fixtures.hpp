@@ -98,6 +98,22 @@ inline TestCloud blob(std::uint32_t seed, std::size_t points) {
   return cloud;
 }
 
+/// All greys, a lattice of 17^3 colours over the whole gamut, and random ones.
+inline std::vector<ss::Rgb> many_colors() {
+  std::vector<ss::Rgb> colors;
+  for (int v = 0; v < 256; ++v) {
+    const auto grey = static_cast<std::uint8_t>(v);
+    colors.push_back({grey, grey, grey});
+  }
+  for (int k = 0; k < 17 * 17 * 17; ++k) {
+    const auto level = [](int step) { return static_cast<std::uint8_t>(std::min(255, 16 * step)); };
+    colors.push_back({level(k % 17), level(k / 17 % 17), level(k / 289)});
+  }
+  Random random(1);
+  for (int k = 0; k < 5000; ++k) colors.push_back({random.byte(), random.byte(), random.byte()});
+  return colors;
+}
+
 /// Room for a gathered neighbourhood of any size.
 struct Room {
   explicit Room(std::size_t n) : floats(4 * n), index(n), capacity(static_cast<std::uint32_t>(n)) {}

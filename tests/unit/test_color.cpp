@@ -13,22 +13,6 @@ namespace {
 
 using namespace unit;
 
-/// All greys, a lattice of 17^3 colours over the whole gamut, and random ones.
-std::vector<ss::Rgb> many_colors() {
-  std::vector<ss::Rgb> colors;
-  for (int v = 0; v < 256; ++v) {
-    const auto grey = static_cast<std::uint8_t>(v);
-    colors.push_back({grey, grey, grey});
-  }
-  for (int k = 0; k < 17 * 17 * 17; ++k) {
-    const auto level = [](int step) { return static_cast<std::uint8_t>(std::min(255, 16 * step)); };
-    colors.push_back({level(k % 17), level(k / 17 % 17), level(k / 289)});
-  }
-  Random random(1);
-  for (int k = 0; k < 5000; ++k) colors.push_back({random.byte(), random.byte(), random.byte()});
-  return colors;
-}
-
 template <class Rule>
 double worst_deviation(oracle::LabRule rule) {
   double worst = 0.0;

@@ -153,6 +153,21 @@ TEST_CASE("extract: features can be used again for another cloud, larger or smal
   }
 }
 
+TEST_CASE("extract: a row that cannot be described is zeros, also where the last frame's descriptor was") {
+  const TestCloud cloud = curved_surface(8, 1500);
+  const ss::GridSearch grid(cloud.view(), radius);
+  ss::Features<D> features;
+  REQUIRE(ss::extract(cloud.view(), grid, std::vector<int>{1, 2, 3}, radius, features) == Status::ok);
+  const std::vector<ss::KeyPoint> none{{{9.0f, 9.0f, 9.0f}, {}}, {{not_a_number, 0.0f, 0.0f}, {}}};
+  REQUIRE(ss::extract(cloud.view(), grid, none, radius, features) == Status::ok);
+  CHECK(features.status == std::vector<Status>{Status::too_few_neighbors, Status::invalid_keypoint});
+  CHECK(features.neighbors == std::vector<std::uint32_t>{0, 0});
+  CHECK(all_zero(features.values));
+  REQUIRE(ss::extract(cloud.view(), grid, std::vector<int>{1, -1}, radius, features) == Status::ok);
+  CHECK(same_bits(row_of(features, 0), described(cloud, std::size_t{1})));
+  CHECK(all_zero(row_of(features, 1)));
+}
+
 TEST_CASE("extract: more threads than key points, and zero threads, are fine") {
   const TestCloud cloud = curved_surface(7, 500);
   const ss::GridSearch grid(cloud.view(), radius);

@@ -1,0 +1,124 @@
+// A streaming robot: from the second frame on nothing is allocated. This file counts what the whole test program
+// allocates: operator new, and, where the C library allows it and no sanitizer has it already, malloc itself.
+#include <doctest/doctest.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "fixtures.hpp"
+#include "thread_pool.hpp"
+
+namespace {
+
+std::atomic<std::size_t> allocations{0};
+
+}  // namespace
+
+#if defined(__has_feature)  // clang's way to say what GCC says by a macro
+#if __has_feature(address_sanitizer)
+#define SHORTSHOT_TEST_OWN_MALLOC
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__)
+#define SHORTSHOT_TEST_OWN_MALLOC
+#endif
+#if defined(__GLIBC__) && !defined(SHORTSHOT_TEST_OWN_MALLOC)
+extern "C" {
+void* __libc_malloc(std::size_t size);                       // NOLINT: the C library's own name
+void* __libc_calloc(std::size_t count, std::size_t size);    // NOLINT
+void* __libc_realloc(void* memory, std::size_t size);        // NOLINT
+void* __libc_memalign(std::size_t align, std::size_t size);  // NOLINT
+void* malloc(std::size_t size) noexcept {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* memory, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_realloc(memory, size);
+}
+void* aligned_alloc(std::size_t align, std::size_t size) noexcept {
+  ++allocations;
+  return __libc_memalign(align, size);
+}
+}
+#endif
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace {
+
+using namespace unit;
+using ss::Status;
+
+constexpr float radius = 0.02f;
+constexpr std::size_t points = 20000;
+
+/// The scene as the camera sees it at some moment: as many points as before, other ones.
+struct Frame {
+  TestCloud cloud;
+  std::vector<std::uint32_t> keypoints;
+  explicit Frame(std::uint32_t moment) : cloud(curved_surface(moment, points)) {
+    for (std::uint32_t i = moment; i < points; i += 100) keypoints.push_back(i);
+    keypoints.resize(150);
+  }
+};
+
+/// Allocations of each frame but the first.
+template <class Features, class Threads>
+std::vector<std::size_t> steady_allocations(Threads&& threads) {
+  std::vector<Frame> frames;
+  for (std::uint32_t moment = 0; moment < 8; ++moment) frames.emplace_back(moment);
+  std::vector<std::size_t> counts;
+  counts.reserve(frames.size());
+  ss::GridSearch search;
+  Features features;
+  for (const Frame& frame : frames) {
+    const std::size_t before = allocations;
+    const Status built = search.build(frame.cloud.view(), radius);
+    const Status status = ss::extract(frame.cloud.view(), search, frame.keypoints, radius, features, threads);
+    counts.push_back(allocations - before);
+    REQUIRE(built == Status::ok);
+    REQUIRE(status == Status::ok);
+    REQUIRE(features.status == std::vector<Status>(frame.keypoints.size(), Status::ok));
+  }
+  CHECK(counts.front() > 0);  // the first frame must be seen to allocate
+  return {counts.begin() + 1, counts.end()};
+}
+
+const std::vector<std::size_t> none(7, 0);
+
+}  // namespace
+
+TEST_CASE("allocation: one thread allocates nothing from the second frame on") {
+  CHECK(steady_allocations<ss::Features<ss::Scsh336>>(1) == none);
+  CHECK(steady_allocations<ss::Features<ss::Scsh336, ss::PackedLab>>(1) == none);
+  CHECK(steady_allocations<ss::Features<ss::Ssh32>>(1) == none);
+}
+
+TEST_CASE("allocation: an executor's threads allocate nothing from the second frame on") {
+  ThreadPool pool(3);
+  CHECK(steady_allocations<ss::Features<ss::Scsh336>>(pool) == none);
+  CHECK(steady_allocations<ss::Features<ss::Scsh336, ss::PackedLab>>(pool) == none);
+  CHECK(steady_allocations<ss::Features<ss::Ssh32>>(pool) == none);
+}
+
+TEST_CASE("allocation: threads that are started are the only thing that is allocated") {
+  for (const std::size_t count : steady_allocations<ss::Features<ss::Ssh32>>(3)) {
+    CHECK(count > 0);   // the count is seen to work on other threads' behalf
+    CHECK(count <= 8);  // two threads and their list, counted once by operator new and once by malloc; C runtime's own
+  }
+}
