@@ -1,0 +1,49 @@
+#include "results_writer/project.hpp"
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "results_writer/machine.hpp"
+#include "results_writer/markdown.hpp"
+#include "results_writer/tables.hpp"
+
+namespace shortshot_bench::results {
+namespace {
+
+Document read_document(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  if (!file) throw std::runtime_error(path + ": cannot read the file");
+  return {path, text.str(), text.str()};
+}
+
+void generate_block(Document& document, const std::string& name, const std::string& content) {
+  document.generated = with_block(document.generated, name, content, document.path);
+}
+
+}  // namespace
+
+std::string machine_path(const std::string& root) { return root + "/bench/results/machine.json"; }
+
+std::vector<Document> generate(const std::string& root) {
+  const std::string results = root + "/bench/results/";
+  const std::string instructions = root + "/bench/instructions/expected.json";
+  const Machine machine = read_machine(machine_path(root));
+  const std::vector<JsonRow> peers = scaling::read_rows(results + "peers.json");
+
+  Document readme = read_document(root + "/README.md");
+  generate_block(readme, "headline", headline(results + "peers.json", peers, machine));
+
+  Document report = read_document(root + "/bench/RESULTS.md");
+  generate_block(report, "machine", machine_lines(machine));
+  generate_block(report, "goals", goals_table(scaling::read_rows(results + "goals.json")));
+  generate_block(report, "peers", peers_table(peers));
+  generate_block(report, "micro", micro_table(results + "micro.json", scaling::read_json(results + "micro.json")));
+  generate_block(report, "instructions", instructions_table(instructions, scaling::read_json(instructions)));
+  generate_block(report, "scaling", scaling_tables(scaling::read_curves(results + "scaling.json"), "results"));
+  return {readme, report};
+}
+
+}  // namespace shortshot_bench::results

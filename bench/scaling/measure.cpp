@@ -1,0 +1,42 @@
+#include "scaling/measure.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+
+namespace shortshot_bench::scaling {
+
+double now_seconds(Clock clock) {
+  timespec time{};
+  clock_gettime(clock == Clock::wall ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+double median(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
+}
+
+std::vector<CurvePoint> measure(const CurveOptions& curve, const std::vector<Task>& tasks) {
+  std::vector<CurvePoint> points;
+  for (const Task& task : tasks) {  // the first run: memory is allocated
+    std::fprintf(stderr, "%s: %.0f\n", curve.x_name.c_str(), task.x);
+    const std::vector<Cost> costs = task.run();
+    for (std::size_t s = 0; s < task.series.size(); ++s) {
+      points.push_back(
+          {curve.name, task.x, curve.x_name, task.series[s], 0.0, curve.unit, costs[s].extra_bytes, curve.repetitions});
+    }
+  }
+  std::vector<std::vector<double>> samples(points.size());
+  for (int repetition = 0; repetition < curve.repetitions; ++repetition) {
+    std::fprintf(stderr, "%s: repetition %d of %d\n", curve.x_name.c_str(), repetition + 1, curve.repetitions);
+    std::size_t point = 0;
+    for (const Task& task : tasks) {
+      for (const Cost& cost : task.run()) samples[point++].push_back(cost.seconds * task.per_second);
+    }
+  }
+  for (std::size_t point = 0; point < points.size(); ++point) points[point].value = median(samples[point]);
+  return points;
+}
+
+}  // namespace shortshot_bench::scaling

@@ -1,0 +1,61 @@
+// What benchmarks of single stages work on: a cloud, key points, and each one's neighbourhood and frame, made
+// beforehand.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "io/rgbd_cloud.hpp"
+#include "shortshot/cloud.hpp"
+#include "shortshot/describe_at.hpp"
+#include "shortshot/frame.hpp"
+#include "shortshot/neighborhood.hpp"
+
+namespace shortshot_bench {
+
+struct WorkloadOptions {
+  float radius = 0.04f;         // of the support, in the cloud's unit (metres)
+  float leaf = 0.02f;           // voxel size of the uniform key points, in the same unit
+  std::size_t keypoints = 100;  // at most, spread evenly over the sampled ones
+};
+
+/// Memory for one neighbourhood of up to `capacity` neighbours.
+class NeighborhoodMemory {
+ public:
+  explicit NeighborhoodMemory(std::uint32_t capacity);
+  shortshot::Neighborhood empty() const;
+
+ private:
+  std::unique_ptr<float[]> floats_;
+  std::unique_ptr<std::uint32_t[]> index_;
+  std::uint32_t capacity_;
+};
+
+/// A key point as the frame and the kernel find it.
+struct GatheredKeyPoint {
+  shortshot::KeyPoint key;
+  NeighborhoodMemory memory;
+  shortshot::Neighborhood neighborhood;
+  shortshot::Frame frame;
+};
+
+struct Workload {
+  RgbdCloud cloud;
+  float radius;
+  std::vector<std::uint32_t> sampled;    // key points by uniform sampling: what extract() is given
+  std::size_t sampled_neighbors;         // of them all together
+  std::vector<GatheredKeyPoint> chosen;  // some of them, so few that their neighbourhoods stay in the cache
+  std::size_t chosen_neighbors;          // of these all together
+  std::uint32_t most_neighbors;          // of one of these
+
+  shortshot::CloudView view() const;
+};
+
+/// Key points without a frame are not chosen. Throws std::runtime_error with the library's own message where the cloud,
+/// the radius or the leaf cannot be used, or if no key point has a frame.
+Workload make_workload(RgbdCloud cloud, const WorkloadOptions& options);
+
+}  // namespace shortshot_bench

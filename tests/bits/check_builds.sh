@@ -1,0 +1,84 @@
+#!/bin/sh
+# check_builds.sh DIRECTORY FOLDER...: compiles hashes.cpp in DIRECTORY with several compilers, flags and instruction sets,
+# runs all of them on the FOLDERs of golden vectors, and compares what they print. Exit code 1 if any hash differs; or if
+# none does where the compiler was told to fuse multiplications and additions, because then this would not notice any.
+# SHORTSHOT_REQUIRE_REAL_DATA, set where changes are merged: nothing may be left out.
+set -eu
+root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
+
+# check_builds.sh --compile DIRECTORY NAME COMPILER FLAGS...: one of them. Of contradicting flags the last one counts.
+if [ "$1" = --compile ]; then
+  program=$2/$3
+  shift 3
+  echo "$program: $*"
+  cd "$root"
+  exec "$@" -std=c++17 -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror -Iinclude -Ibench -o "$program" \
+    tests/bits/hashes.cpp bench/golden/case.cpp bench/golden/array.cpp bench/golden/known_arrays.cpp bench/scene/tabletop.cpp
+fi
+
+directory=$1
+shift
+rm -rf "$directory"
+mkdir -p "$directory"
+failed=0
+
+left_out() {
+  echo "left out: $1"
+  [ -z "${SHORTSHOT_REQUIRE_REAL_DATA:-}" ] || failed=1
+}
+build() {  # NAME COMPILER FLAGS...
+  echo "$*" >>"$directory/builds"
+}
+
+[ "$(uname -m)" = x86_64 ] || { left_out "same bits of all builds, this is no x86-64"; exit $failed; }
+build gcc_sse2 g++ -O2 -ffp-contract=off  # what all others are compared with
+build gcc_sse2_Os g++ -Os -ffp-contract=off
+build gcc_sse2_O3 g++ -O3 -ffp-contract=off
+build gcc_scalar g++ -O2 -ffp-contract=off -U__SSE2__
+build clang_sse2 clang++ -O2 -ffp-contract=off
+build clang_scalar clang++ -O2 -ffp-contract=off -U__SSE2__
+if grep -qw avx2 /proc/cpuinfo && grep -qw fma /proc/cpuinfo; then
+  build gcc_avx2 g++ -O2 -ffp-contract=off -mavx2 -mfma
+  build clang_avx2 clang++ -O2 -ffp-contract=off -mavx2 -mfma
+  build must_differ g++ -O2 -ffp-contract=fast -mavx2 -mfma
+else
+  left_out "AVX2, this CPU has no AVX2 or no FMA"
+fi
+if command -v aarch64-linux-gnu-g++ >/dev/null && command -v qemu-aarch64 >/dev/null; then
+  build gcc_neon aarch64-linux-gnu-g++ -O2 -ffp-contract=off -static
+  build clang_neon clang++ --target=aarch64-linux-gnu -O2 -ffp-contract=off -static
+else
+  left_out "NEON, there is no aarch64-linux-gnu-g++ or no qemu-aarch64"
+fi
+xargs -L 1 -P "$(nproc)" "$0" --compile "$directory" <"$directory/builds"
+
+names=$(cut -d ' ' -f 1 "$directory/builds")
+for name in $names; do
+  emulator=
+  case $name in *_neon) emulator=qemu-aarch64 ;; esac
+  # Only a program that ran to its end leaves a file of hashes.
+  ($emulator "$directory/$name" "$@" >"$directory/$name.out" && mv "$directory/$name.out" "$directory/$name.hashes") &
+done
+wait
+
+reference=$directory/gcc_sse2.hashes
+for name in $names; do
+  hashes=$directory/$name.hashes
+  if [ ! -s "$hashes" ]; then
+    echo "$name: did not run to its end"
+    failed=1
+    [ -s "$reference" ] || break
+    continue
+  fi
+  different=$(diff "$reference" "$hashes" | sed -n 's/^[<>] \(.*\) .*/\1/p' | sort -u)
+  if [ "$name" = must_differ ]; then
+    [ -n "$different" ] || failed=1
+    echo "$name: $(echo "$different" | grep -c .) hashes differ where multiplications and additions are fused"
+  elif [ -n "$different" ]; then
+    echo "$different" | sed "s/^/$name: DIFFERENT BITS: /"
+    failed=1
+  else
+    echo "$name: the same $(wc -l <"$hashes") hashes"
+  fi
+done
+exit $failed

@@ -1,0 +1,143 @@
+// hashes FOLDER...: prints a line "case array hash" for whatever the library computes of each folder of golden vectors
+// and of a generated scene. check_builds.sh compares these lines between compilers and machines.
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "golden/case.hpp"
+#include "scene/tabletop.hpp"
+#include "shortshot/shortshot.hpp"
+
+namespace {
+
+using namespace shortshot;
+using Shape = SphericalGrid<3, 4, 8>;
+using Color = SphericalGrid<2, 2, 4>;
+
+/// What is described: key points of a cloud in frames of their own and, where there are any, in given ones.
+struct Input {
+  std::string name;
+  CloudView cloud;
+  Radius radius;
+  std::vector<std::uint32_t> keypoints;
+  std::vector<Frame> frames;  // one per key point, or none at all
+};
+
+/// FNV-1a with 64 bits, over the bytes of numbers and of structs of numbers without padding.
+class Hash {
+ public:
+  template <class T>
+  void add(const T* values, std::size_t count) {
+    std::vector<unsigned char> bytes(count * sizeof(T));
+    std::memcpy(bytes.data(), values, bytes.size());
+    for (const unsigned char byte : bytes) value_ = (value_ ^ byte) * 1099511628211ULL;
+  }
+
+  void print(const std::string& name, const char* array) const {
+    std::printf("%s %s %016llx\n", name.c_str(), array, value_);
+  }
+
+ private:
+  unsigned long long value_ = 14695981039346656037ULL;
+};
+
+Workspace<16384> workspace;
+
+template <class D>
+void print_descriptors(const Input& input, const GridSearch& search, const char* array) {
+  if (D::needs_colors && !has_colors(input.cloud)) return;
+  Hash hash;
+  std::vector<float> values(D::size);
+  const auto add = [&](Status status) {
+    hash.add(&status, 1);
+    hash.add(values.data(), values.size());
+  };
+  for (std::size_t k = 0; k < input.keypoints.size(); ++k) {
+    const std::uint32_t index = input.keypoints[k];
+    add(describe_at<D>(input.cloud, search, index, input.radius, workspace, values.data()));
+    if (input.frames.empty()) continue;
+    add(describe_at<D>(input.cloud, search, keypoint(input.cloud, index), input.frames[k], input.radius, workspace,
+                       values.data()));
+  }
+  hash.print(input.name, array);
+}
+
+void print_frames(const Input& input, const GridSearch& search) {
+  Hash hash;
+  for (const std::uint32_t index : input.keypoints) {
+    Neighborhood n = neighborhood_in(workspace);
+    Frame frame{};
+    const Status statuses[] = {search.gather(point(input.cloud, index), input.radius, n),
+                               estimate_frame(n, input.radius, frame)};
+    hash.add(statuses, 2);
+    hash.add(&n.found, 1);
+    hash.add(&frame, 1);
+  }
+  hash.print(input.name, "frames");
+}
+
+template <class Rule>
+void print_colors(const Input& input, const char* array) {
+  if (!has_colors(input.cloud)) return;
+  std::vector<Lab> lab;
+  for (std::size_t i = 0; i < input.cloud.size; ++i) lab.push_back(to_lab<Rule>(color(input.cloud, i)));
+  Hash hash;
+  hash.add(lab.data(), lab.size());
+  hash.print(input.name, array);
+}
+
+void print_all(const Input& input) {
+  print_colors<PublishedLab>(input, "lab_published");
+  print_colors<PclLab>(input, "lab_pcl");
+  if (input.keypoints.empty()) return;
+  const GridSearch search(input.cloud, input.radius.value);
+  print_frames(input, search);
+  print_descriptors<Ssh32>(input, search, "ssh32");
+  print_descriptors<Ssh96>(input, search, "ssh96");
+  print_descriptors<Scsh336>(input, search, "scsh336");
+  print_descriptors<Scsh696>(input, search, "scsh696");
+  print_descriptors<Scsh<Shape, Color, 15, HardVoting>>(input, search, "scsh336_hard");
+  print_descriptors<Scsh<Shape, Color, 15, PublishedVoting, LinearRadius, PclLab>>(input, search, "scsh336_pcl");
+  print_descriptors<Ssh<Shape, MultilinearVoting, LogRadius<>>>(input, search, "ssh96_multilinear_log");
+  print_descriptors<Scsh<Shape, Color, 15, MultilinearVoting, LogRadius<>>>(input, search, "scsh336_multilinear_log");
+}
+
+void print_scene() {
+  const shortshot_bench::RgbdCloud scene = shortshot_bench::make_tabletop({1, 160, 120, 1.0f});
+  Input input{"scene", view_xyz_rgb(scene.xyz.data(), scene.rgb.data(), scene.size()), 0.06f, {}, {}};
+  Hash hash;
+  hash.add(scene.xyz.data(), scene.xyz.size());
+  hash.print(input.name, "points");
+  const Status status = sample_uniform(input.cloud, 0.03f, input.keypoints);
+  Hash keypoints;
+  keypoints.add(&status, 1);
+  keypoints.add(input.keypoints.data(), input.keypoints.size());
+  keypoints.print(input.name, "keypoints");
+  print_all(input);
+}
+
+void print_case(const std::string& folder) {
+  const shortshot_bench::golden::Case c = shortshot_bench::golden::read_case(folder);
+  CloudView cloud = c.cloud();
+  if (c.points.empty()) cloud = view_xyz_rgb(nullptr, c.rgb.data(), c.rgb.size() / 3);  // a table of colours
+  Input input{std::filesystem::path(folder + "/").parent_path().filename().string(), cloud,
+              Radius::from_double(c.radius.value_or(1.0)), c.keypoints, std::vector<Frame>(c.frames.size() / 9)};
+  static_assert(sizeof(Frame) == 9 * sizeof(float), "a frame is its three axes");
+  if (!c.frames.empty()) std::memcpy(input.frames.data(), c.frames.data(), c.frames.size() * sizeof(float));
+  print_all(input);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    print_scene();
+    for (int i = 1; i < argc; ++i) print_case(argv[i]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+}
