@@ -75,8 +75,12 @@ struct Mask {
 [[nodiscard]] inline float root(float value) noexcept { return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(value))); }
 
 [[nodiscard]] inline F32 load(const float* p) noexcept { return {_mm256_loadu_ps(p)}; }
+[[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept {
+  return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))};
+}
 inline void store(float* p, F32 a) noexcept { _mm256_storeu_ps(p, a.v); }
 inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v); }
+inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {_mm256_set1_ps(value)}; }
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm256_add_ps(a.v, b.v)}; }
@@ -87,6 +91,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GT_OQ)}; }
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
+[[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm256_and_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {_mm256_xor_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm256_or_ps(a.v, b.v)}; }
@@ -108,8 +113,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {_mm256_and_ps(m.v, a.v)}; }
 [[nodiscard]] inline bool any(Mask m) noexcept { return _mm256_movemask_ps(m.v) != 0; }
 [[nodiscard]] inline bool every(Mask m) noexcept { return _mm256_movemask_ps(m.v) == 0xFF; }
-/// 1 where m, else zero.
-[[nodiscard]] inline I32 ones(Mask m) noexcept { return {_mm256_srli_epi32(_mm256_castps_si256(m.v), 31)}; }
+/// a + 1 where m, else a.
+[[nodiscard]] inline I32 increment(Mask m, I32 a) noexcept { return {_mm256_sub_epi32(a.v, _mm256_castps_si256(m.v))}; }
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {_mm256_castps_si256(a.v)}; }
@@ -125,9 +130,6 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm256_cvtps_epi32(a.v)}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept {
-  return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))};
-}
 [[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {_mm256_set1_epi32(value)}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {_mm256_sub_epi32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {_mm256_and_si256(a.v, b.v)}; }
@@ -182,6 +184,49 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
   c = {_mm256_shuffle_ps(bc[0], bc[1], _MM_SHUFFLE(3, 1, 3, 1))};
 }
 
+/// Lanes 0 to count - 1; count is 1 or more.
+[[nodiscard]] inline Mask first(std::size_t count) noexcept {
+  const __m256i limit = _mm256_set1_epi32(static_cast<int>(count));
+  return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(limit, _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)))};
+}
+
+/// For each set of lanes their numbers in ascending order, four bits each, the lowest bits first.
+struct LaneLists {
+  std::uint32_t of[256];
+  constexpr LaneLists() noexcept : of{} {
+    for (std::uint32_t set = 0; set < 256; ++set) {
+      std::uint32_t count = 0;
+      for (std::uint32_t lane = 0; lane < 8; ++lane) {
+        if ((set >> lane & 1u) != 0) of[set] |= lane << 4 * count++;
+      }
+    }
+  }
+};
+inline constexpr LaneLists lane_lists{};
+
+/// How store() packs the lanes where a mask is set.
+struct Packing {
+  __m256i lanes;
+  std::uint32_t count;
+};
+
+[[nodiscard]] inline Packing packing(Mask m) noexcept {
+  const auto set = static_cast<std::uint32_t>(_mm256_movemask_ps(m.v));
+  const __m256i list = _mm256_set1_epi32(static_cast<int>(lane_lists.of[set]));
+  // Permutations look at the lowest three bits of each lane only.
+  return {_mm256_srlv_epi32(list, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28)),
+          static_cast<std::uint32_t>(__builtin_popcount(set))};
+}
+
+/// The lanes where the mask is set, one behind the other; what is written behind them, up to a register's length, means
+/// nothing.
+inline void store(float* p, F32 a, const Packing& packing) noexcept {
+  _mm256_storeu_ps(p, _mm256_permutevar8x32_ps(a.v, packing.lanes));
+}
+inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm256_permutevar8x32_epi32(a.v, packing.lanes));
+}
+
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
@@ -212,8 +257,12 @@ struct Mask {
 [[nodiscard]] inline float root(float value) noexcept { return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(value))); }
 
 [[nodiscard]] inline F32 load(const float* p) noexcept { return {_mm_loadu_ps(p)}; }
+[[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept {
+  return {_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))};
+}
 inline void store(float* p, F32 a) noexcept { _mm_storeu_ps(p, a.v); }
 inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a.v); }
+inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a.v); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {_mm_set1_ps(value)}; }
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm_add_ps(a.v, b.v)}; }
@@ -224,6 +273,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm_cmplt_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {_mm_cmpgt_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm_cmpge_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {_mm_cmpneq_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm_and_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {_mm_xor_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm_or_ps(a.v, b.v)}; }
@@ -245,8 +295,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {_mm_and_ps(m.v, a.v)}; }
 [[nodiscard]] inline bool any(Mask m) noexcept { return _mm_movemask_ps(m.v) != 0; }
 [[nodiscard]] inline bool every(Mask m) noexcept { return _mm_movemask_ps(m.v) == 0xF; }
-/// 1 where m, else zero.
-[[nodiscard]] inline I32 ones(Mask m) noexcept { return {_mm_srli_epi32(_mm_castps_si128(m.v), 31)}; }
+/// a + 1 where m, else a.
+[[nodiscard]] inline I32 increment(Mask m, I32 a) noexcept { return {_mm_sub_epi32(a.v, _mm_castps_si128(m.v))}; }
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {_mm_castps_si128(a.v)}; }
@@ -260,9 +310,6 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm_cvtps_epi32(a.v)}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept {
-  return {_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))};
-}
 [[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {_mm_set1_epi32(value)}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {_mm_sub_epi32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {_mm_and_si128(a.v, b.v)}; }
@@ -311,6 +358,38 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
   c = {_mm_shuffle_ps(bc[0], bc[1], _MM_SHUFFLE(3, 1, 3, 1))};
 }
 
+/// Lanes 0 to count - 1; count is 1 or more.
+[[nodiscard]] inline Mask first(std::size_t count) noexcept {
+  const __m128i limit = _mm_set1_epi32(static_cast<int>(count));
+  return {_mm_castsi128_ps(_mm_cmplt_epi32(_mm_setr_epi32(0, 1, 2, 3), limit))};
+}
+
+/// How store() packs the lanes where a mask is set: each half of the register is packed by itself, and the second half
+/// is stored behind what the first one keeps.
+struct Packing {
+  __m128 second_only;  // in the lane that receives it: of a pair of lanes, the first is dropped
+  std::uint32_t first_half;
+  std::uint32_t count;
+};
+
+[[nodiscard]] inline Packing packing(Mask m) noexcept {
+  const auto bits = static_cast<std::uint32_t>(_mm_movemask_ps(m.v));
+  const std::uint32_t pairs = bits - (bits >> 1 & 5u);  // two counts of two bits each
+  return {m.v, pairs & 3u, (pairs & 3u) + (pairs >> 2)};
+}
+
+/// The lanes where the mask is set, one behind the other; what is written behind them, up to a register's length, means
+/// nothing.
+inline void store(float* p, F32 a, const Packing& packing) noexcept {
+  const __m128 second = _mm_shuffle_ps(a.v, a.v, _MM_SHUFFLE(3, 3, 1, 1));
+  const __m128 packed = _mm_xor_ps(second, _mm_and_ps(packing.second_only, _mm_xor_ps(second, a.v)));
+  _mm_storel_pi(reinterpret_cast<__m64*>(p), packed);
+  _mm_storeh_pi(reinterpret_cast<__m64*>(p + packing.first_half), packed);
+}
+inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
+  store(reinterpret_cast<float*>(p), {_mm_castsi128_ps(a.v)}, packing);
+}
+
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
@@ -341,8 +420,10 @@ struct Mask {
 [[nodiscard]] inline float root(float value) noexcept { return vget_lane_f32(vsqrt_f32(vdup_n_f32(value)), 0); }
 
 [[nodiscard]] inline F32 load(const float* p) noexcept { return {vld1q_f32(p)}; }
+[[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept { return {vreinterpretq_s32_u32(vld1q_u32(p))}; }
 inline void store(float* p, F32 a) noexcept { vst1q_f32(p, a.v); }
 inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
+inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq_u32_s32(a.v)); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {vdupq_n_f32(value)}; }
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {vaddq_f32(a.v, b.v)}; }
@@ -353,6 +434,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {vcltq_f32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {vcgtq_f32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {vcgeq_f32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {vmvnq_u32(vceqq_f32(a.v, b.v))}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {vandq_u32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {veorq_u32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {vorrq_u32(a.v, b.v)}; }
@@ -374,8 +456,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 }
 [[nodiscard]] inline bool any(Mask m) noexcept { return vmaxvq_u32(m.v) != 0; }
 [[nodiscard]] inline bool every(Mask m) noexcept { return vminvq_u32(m.v) != 0; }
-/// 1 where m, else zero.
-[[nodiscard]] inline I32 ones(Mask m) noexcept { return {vreinterpretq_s32_u32(vshrq_n_u32(m.v, 31))}; }
+/// a + 1 where m, else a.
+[[nodiscard]] inline I32 increment(Mask m, I32 a) noexcept { return {vsubq_s32(a.v, vreinterpretq_s32_u32(m.v))}; }
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {vreinterpretq_s32_f32(a.v)}; }
@@ -389,7 +471,6 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {vcvtnq_s32_f32(a.v)}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept { return {vld1q_s32(p)}; }
 [[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {vdupq_n_s32(value)}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {vsubq_s32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {vandq_s32(a.v, b.v)}; }
@@ -433,6 +514,48 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
   c = {abc.val[2]};
 }
 
+inline constexpr std::uint32_t lane_numbers[4] = {0, 1, 2, 3};
+
+/// Lanes 0 to count - 1; count is 1 or more.
+[[nodiscard]] inline Mask first(std::size_t count) noexcept {
+  return {vcltq_u32(vld1q_u32(lane_numbers), vdupq_n_u32(static_cast<std::uint32_t>(count)))};
+}
+
+/// For each set of lanes the bytes of its lanes, in ascending order.
+struct LaneBytes {
+  std::uint8_t of[16][16];
+  constexpr LaneBytes() noexcept : of{} {
+    for (std::uint32_t set = 0; set < 16; ++set) {
+      std::uint32_t place = 0;
+      for (std::uint32_t byte = 0; byte < 16; ++byte) {
+        if ((set >> byte / 4 & 1u) != 0) of[set][place++] = static_cast<std::uint8_t>(byte);
+      }
+    }
+  }
+};
+inline constexpr LaneBytes lane_bytes{};
+inline constexpr std::uint32_t lane_bits[4] = {1, 2, 4, 8};
+
+/// How store() packs the lanes where a mask is set.
+struct Packing {
+  uint8x16_t bytes;
+  std::uint32_t count;
+};
+
+[[nodiscard]] inline Packing packing(Mask m) noexcept {
+  const std::uint32_t set = vaddvq_u32(vandq_u32(m.v, vld1q_u32(lane_bits)));
+  return {vld1q_u8(lane_bytes.of[set]), vaddvq_u32(vshrq_n_u32(m.v, 31))};
+}
+
+/// The lanes where the mask is set, one behind the other; what is written behind them, up to a register's length, means
+/// nothing.
+inline void store(float* p, F32 a, const Packing& packing) noexcept {
+  vst1q_f32(p, vreinterpretq_f32_u8(vqtbl1q_u8(vreinterpretq_u8_f32(a.v), packing.bytes)));
+}
+inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
+  vst1q_u32(p, vreinterpretq_u32_u8(vqtbl1q_u8(vreinterpretq_u8_s32(a.v), packing.bytes)));
+}
+
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
@@ -470,8 +593,10 @@ struct Mask {
 }
 
 [[nodiscard]] inline F32 load(const float* p) noexcept { return {*p}; }
+[[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept { return {static_cast<std::int32_t>(*p)}; }
 inline void store(float* p, F32 a) noexcept { *p = a.v; }
 inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
+inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint32_t>(a.v); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {value}; }
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {a.v + b.v}; }
@@ -482,6 +607,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {a.v < b.v}; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {a.v > b.v}; }
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {a.v >= b.v}; }
+[[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
 [[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
@@ -499,8 +625,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {m.v ? a.v : 0.0f}; }
 [[nodiscard]] inline bool any(Mask m) noexcept { return m.v; }
 [[nodiscard]] inline bool every(Mask m) noexcept { return m.v; }
-/// 1 where m, else zero.
-[[nodiscard]] inline I32 ones(Mask m) noexcept { return {m.v ? 1 : 0}; }
+/// a + 1 where m, else a.
+[[nodiscard]] inline I32 increment(Mask m, I32 a) noexcept { return {a.v + (m.v ? 1 : 0)}; }
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept {
@@ -519,7 +645,6 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {bits_of({a.v + 12582912.0f}).v - 0x4B400000}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept { return {*p}; }
 [[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {value}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {a.v - b.v}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {a.v & b.v}; }
@@ -553,6 +678,21 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
   b = {p[1]};
   c = {p[2]};
 }
+
+/// Lanes 0 to count - 1; count is 1 or more.
+[[nodiscard]] inline Mask first(std::size_t) noexcept { return {true}; }
+
+/// How store() packs the lanes where a mask is set.
+struct Packing {
+  std::uint32_t count;
+};
+
+[[nodiscard]] inline Packing packing(Mask m) noexcept { return {m.v ? 1u : 0u}; }
+
+/// The lanes where the mask is set, one behind the other; what is written behind them, up to a register's length, means
+/// nothing.
+inline void store(float* p, F32 a, const Packing&) noexcept { *p = a.v; }
+inline void store(std::uint32_t* p, I32 a, const Packing&) noexcept { store(p, a); }
 
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA
@@ -1277,7 +1417,8 @@ class PackedLab {
   /// The nearest of 0..last; 0 for NaN.
   [[nodiscard]] static std::uint32_t code(float steps, float last) noexcept {
     const float positive = steps > 0.0f ? steps : 0.0f;
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>((positive < last ? positive : last) + 0.5f));
+    const float border = 0.5f + (positive < last ? positive : last);
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(border));
   }
 
   std::uint32_t bits_;
@@ -1913,7 +2054,8 @@ struct Offsets {
   if (n.size - i >= simd::lanes) {
     return {simd::load(n.dx + i), simd::load(n.dy + i), simd::load(n.dz + i), simd::load(n.d2 + i)};
   }
-  float rest[4][simd::lanes] = {};
+  float rest[4][simd::lanes];
+  for (float(&lanes)[simd::lanes] : rest) simd::store(lanes, simd::all(0.0f));
   for (std::uint32_t k = 0; k < n.size - i; ++k) {
     rest[0][k] = n.dx[i + k];
     rest[1][k] = n.dy[i + k];
@@ -1921,6 +2063,14 @@ struct Offsets {
     rest[3][k] = n.d2[i + k];
   }
   return {simd::load(rest[0]), simd::load(rest[1]), simd::load(rest[2]), simd::load(rest[3])};
+}
+
+/// The same register's indices; 0 for what is left over.
+[[nodiscard]] inline simd::I32 load_indices(const Neighborhood& n, std::uint32_t i) noexcept {
+  if (n.size - i >= simd::lanes) return simd::load(n.index + i);
+  std::uint32_t rest[simd::lanes] = {};
+  for (std::uint32_t k = 0; k < n.size - i; ++k) rest[k] = n.index[i + k];
+  return simd::load(rest);
 }
 
 /// Offer one point of the cloud to the neighbourhood: THE membership rule, for every search. A point is a neighbour if
@@ -1941,52 +2091,6 @@ inline void offer(Neighborhood& out, const Point& p, std::uint32_t index, const 
     ++out.size;
   }
   ++out.found;
-}
-
-/// The same rule for simd::lanes points at once, from arrays of coordinates and indices.
-template <class Index>
-inline void offer_lanes(Neighborhood& out, const float* x, const float* y, const float* z, const Index* index,
-                        const Point& center, float radius_squared) noexcept {
-  const simd::F32 dx = simd::load(x) - simd::all(center.x);
-  const simd::F32 dy = simd::load(y) - simd::all(center.y);
-  const simd::F32 dz = simd::load(z) - simd::all(center.z);
-  const simd::F32 d2 = (dx * dx + dy * dy) + dz * dz;
-  const simd::Mask inside = d2 < simd::all(radius_squared);
-  if (!any(inside)) return;
-  if (out.capacity - out.size < simd::lanes) {  // no room for a whole register: one by one
-    for (std::size_t k = 0; k < simd::lanes; ++k) offer(out, {x[k], y[k], z[k]}, index[k], center, radius_squared);
-    return;
-  }
-  float* const out_dx = out.dx + out.size;
-  float* const out_dy = out.dy + out.size;
-  float* const out_dz = out.dz + out.size;
-  float* const out_d2 = out.d2 + out.size;
-  std::uint32_t* const out_index = out.index + out.size;
-  std::uint32_t added = 0;
-  if (every(inside)) {  // most: neighbours come in runs
-    simd::store(out_dx, dx);
-    simd::store(out_dy, dy);
-    simd::store(out_dz, dz);
-    simd::store(out_d2, d2);
-    for (std::size_t k = 0; k < simd::lanes; ++k) out_index[k] = index[k];
-    added = static_cast<std::uint32_t>(simd::lanes);
-  } else {  // no branches: each is written, and the next one overwrites it unless it is inside
-    float values[4][simd::lanes];
-    simd::store(values[0], dx);
-    simd::store(values[1], dy);
-    simd::store(values[2], dz);
-    simd::store(values[3], d2);
-    detail::unroll<static_cast<int>(simd::lanes)>([&](auto k) {
-      out_dx[added] = values[0][k];
-      out_dy[added] = values[1][k];
-      out_dz[added] = values[2][k];
-      out_d2[added] = values[3][k];
-      out_index[added] = index[k];
-      added += values[3][k] < radius_squared ? 1u : 0u;
-    });
-  }
-  out.size += added;
-  out.found += added;
 }
 
 /// To be called by a search before it offers the first point.
@@ -2018,13 +2122,6 @@ namespace detail {
   return n.d2[i] < radius.squared && (n.dx[i] != 0.0f || n.dy[i] != 0.0f || n.dz[i] != 0.0f);
 }
 
-/// The same for a register of neighbours.
-[[nodiscard]] inline simd::Mask are_members(const Offsets& v, Radius radius) noexcept {
-  const simd::F32 zero = simd::all(0.0f);
-  const simd::Mask apart = (simd::abs(v.dx) > zero) | (simd::abs(v.dy) > zero) | (simd::abs(v.dz) > zero);
-  return apart & (v.d2 < simd::all(radius.squared));
-}
-
 /// A place in the order of members: by squared distance, then by index in the cloud (below all of them: -1).
 struct Place {
   float d2;
@@ -2046,15 +2143,22 @@ struct Place {
   return best;
 }
 
-/// How many members have a squared distance of at most `limit`.
-[[nodiscard]] inline int members_within(const Neighborhood& n, Radius radius, float limit) noexcept {
-  int members = 0;
-  for (std::uint32_t i = 0; i < n.size; ++i) members += n.d2[i] <= limit && is_member(n, i, radius) ? 1 : 0;
-  return members;
+/// How many neighbours have a squared distance of at most `limit`.
+[[nodiscard]] inline int count_within(const Neighborhood& n, float limit) noexcept {
+  simd::I32 within{};
+  std::uint32_t i = 0;
+  for (; n.size - i >= simd::lanes; i += simd::lanes) {
+    within = increment(simd::all(limit) >= simd::load(n.d2 + i), within);
+  }
+  int count = sum(within);
+  for (; i < n.size; ++i) count += n.d2[i] <= limit ? 1 : 0;
+  return count;
 }
 
 /// The member of the given rank; rank 0 is the closest. The neighbourhood must have more members than that.
 [[nodiscard]] inline std::uint32_t member_of_rank(const Neighborhood& n, Radius radius, int rank) noexcept {
+  int copies = 0;  // of the key point: at distance 0, and within every limit
+  for (std::uint32_t i = 0; i < n.size; ++i) copies += n.d2[i] == 0.0f && !is_member(n, i, radius) ? 1 : 0;
   const auto as_float = [](std::uint32_t bits) {
     float value = 0.0f;
     std::memcpy(&value, &bits, sizeof value);
@@ -2066,14 +2170,14 @@ struct Place {
   std::memcpy(&high, &radius.squared, sizeof high);
   while (low < high) {
     const std::uint32_t middle = low + (high - low) / 2;
-    if (members_within(n, radius, as_float(middle)) > rank) {
+    if (count_within(n, as_float(middle)) - copies > rank) {
       high = middle;
     } else {
       low = middle + 1;
     }
   }
   const float d2 = as_float(low);
-  const int closer = low == 0 ? 0 : members_within(n, radius, as_float(low - 1));
+  const int closer = low == 0 ? 0 : count_within(n, as_float(low - 1)) - copies;
   std::uint32_t member = next_member(n, radius, {d2, -1});
   for (int k = closer; k < rank; ++k) member = next_member(n, radius, {d2, n.index[member]});
   return member;
@@ -2109,6 +2213,7 @@ inline void rotate(float (&a)[3][3], float (&v)[3][3], int p, int q) noexcept {
   if (a[p][q] == 0.0f) return;
   const float theta = (a[q][q] - a[p][p]) / (2.0f * a[p][q]);
   const float magnitude = theta < 0.0f ? -theta : theta;
+  if (magnitude > 1e18f) return;  // turns by less than any component's last bit; half of all rotations, at the end
   // tan of the rotation angle; theta squared would overflow where the angle is below float resolution anyway.
   const float tangent =
       magnitude > 1e9f ? 0.5f / magnitude : 1.0f / (magnitude + simd::root(magnitude * magnitude + 1.0f));
@@ -2202,14 +2307,32 @@ inline void negate(float (&axis)[3]) noexcept {
   for (float& component : axis) component = 0.0f - component;
 }
 
-/// Pass 1: how far the members reach, as the squared distance of the farthest one.
-[[nodiscard]] inline float farthest_member_d2(const Neighborhood& n, Radius radius) noexcept {
-  simd::F32 farthest = simd::all(0.0f);
+/// A neighbour within the frame's radius is a member, unless it is a copy of the key point. Copies move no sum; where
+/// members are counted, the copies' number is taken off.
+[[nodiscard]] inline simd::Mask within(const Offsets& v, Radius radius) noexcept {
+  return v.d2 < simd::all(radius.squared);
+}
+
+/// Pass 1: how far the members reach, as the squared distance of the farthest one, and how many there are.
+struct Census {
+  float farthest_d2;
+  int members;
+  int copies;  ///< of the key point, with those that fill up the last register
+};
+
+[[nodiscard]] inline Census take_census(const Neighborhood& n, Radius radius) noexcept {
+  const simd::F32 zero = simd::all(0.0f);
+  simd::F32 farthest = zero;
+  simd::I32 inside{}, apart{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
-    farthest = simd::max(farthest, keep(are_members(v, radius), v.d2));
+    const simd::Mask near = within(v, radius);
+    farthest = simd::max(farthest, keep(near, v.d2));
+    inside = increment(near, inside);
+    apart = increment(near & ((v.dx != zero) | (v.dy != zero) | (v.dz != zero)), apart);
   }
-  return simd::largest(farthest);
+  const int members = sum(apart);
+  return {simd::largest(farthest), members, sum(inside) - members};
 }
 
 /// How members are brought to fixed point: coordinates times `unit`, a power of two (so that nothing is rounded) that
@@ -2233,56 +2356,63 @@ struct MemberScale {
 }
 
 /// Pass 2: sum of w v v^T over the members (PCL's matrix but for its scale, which moves no eigenvector).
-struct WeightedScatter {
-  Symmetric3 matrix;
-  int members;
-};
-
-[[nodiscard]] inline WeightedScatter weighted_scatter(const Neighborhood& n, Radius radius) noexcept {
+[[nodiscard]] inline Symmetric3 weighted_scatter(const Neighborhood& n, Radius radius, float farthest_d2) noexcept {
   using simd::all;
-  const MemberScale to = member_scale(n.size, farthest_member_d2(n, radius), radius);
-  const simd::F32 unit = all(to.unit);
-  const simd::F32 inverse = all(1.0f / radius.value);
-  simd::I32 xx{}, xy{}, xz{}, yy{}, yz{}, zz{}, members{};
+  using simd::F32;
+  const MemberScale to = member_scale(n.size, farthest_d2, radius);
+  const F32 unit = all(to.unit);
+  const F32 scale = all(to.scale);
+  const F32 inverse = all(1.0f / radius.value);
+  simd::I32 xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
-    const simd::Mask member = are_members(v, radius);
-    const simd::F32 x = keep(member, v.dx) * unit;
-    const simd::F32 y = keep(member, v.dy) * unit;
-    const simd::F32 z = keep(member, v.dz) * unit;
-    const simd::F32 w = (all(1.0f) - simd::sqrt(keep(member, v.d2)) * inverse) * all(to.scale);
-    const simd::F32 wx = w * x;
-    const simd::F32 wy = w * y;
+    const F32 x = v.dx * unit;
+    const F32 y = v.dy * unit;
+    const F32 z = v.dz * unit;
+    const F32 w = keep(within(v, radius), (all(1.0f) - simd::sqrt(v.d2) * inverse) * scale);
+    const F32 wx = w * x;
+    const F32 wy = w * y;
     xx = xx + round_to_int(wx * x);
     xy = xy + round_to_int(wx * y);
     xz = xz + round_to_int(wx * z);
     yy = yy + round_to_int(wy * y);
     yz = yz + round_to_int(wy * z);
     zz = zz + round_to_int(w * z * z);
-    members = members + ones(member);
   }
   const auto total = [](simd::I32 lanes) { return static_cast<float>(sum(lanes)); };
-  return {{total(xx), total(xy), total(xz), total(yy), total(yz), total(zz)}, sum(members)};
+  return {total(xx), total(xy), total(xz), total(yy), total(yz), total(zz)};
 }
 
-/// Pass 3: how many members have v . axis >= 0.
-[[nodiscard]] inline int votes_for(const Neighborhood& n, Radius radius, const float (&axis)[3]) noexcept {
+/// Pass 3: for each of two axes, how many members have v . axis >= 0.
+struct AxisVotes {
+  int x;
+  int z;
+};
+
+[[nodiscard]] inline AxisVotes count_votes(const Neighborhood& n, Radius radius, int copies, const float (&x)[3],
+                                           const float (&z)[3]) noexcept {
   using simd::all;
-  simd::I32 votes{};
+  using simd::F32;
+  const F32 x_axis[3] = {all(x[0]), all(x[1]), all(x[2])};
+  const F32 z_axis[3] = {all(z[0]), all(z[1]), all(z[2])};
+  simd::I32 for_x{}, for_z{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
-    const simd::F32 along = (v.dx * all(axis[0]) + v.dz * all(axis[2])) + v.dy * all(axis[1]);
-    votes = votes + ones((along >= all(0.0f)) & are_members(v, radius));
+    const simd::Mask near = within(v, radius);
+    const F32 along_x = (v.dx * x_axis[0] + v.dz * x_axis[2]) + v.dy * x_axis[1];
+    const F32 along_z = (v.dx * z_axis[0] + v.dz * z_axis[2]) + v.dy * z_axis[1];
+    for_x = increment((along_x >= all(0.0f)) & near, for_x);
+    for_z = increment((along_z >= all(0.0f)) & near, for_z);
   }
-  return sum(votes);
+  return {sum(for_x) - copies, sum(for_z) - copies};
 }
 
 /// PCL's answer to a tied vote: of the five members in the middle of the order by distance, do at least three have
 /// v . axis > 0?
-[[nodiscard]] inline bool middle_votes_for(const Neighborhood& n, Radius radius, int members,
+[[nodiscard]] inline bool middle_votes_for(const Neighborhood& n, Radius radius, const Census& census,
                                            const float (&axis)[3]) noexcept {
   int votes = 0;
-  std::uint32_t i = member_of_rank(n, radius, members / 2 - 2);
+  std::uint32_t i = member_of_rank(n, radius, census.members / 2 - 2);
   for (int k = 0; k < 5 && i < n.size; ++k) {
     const float v[3] = {n.dx[i], n.dy[i], n.dz[i]};
     votes += dot(v, axis) > 0.0f ? 1 : 0;
@@ -2292,9 +2422,10 @@ struct WeightedScatter {
 }
 
 /// Turn an axis towards the majority of the members.
-inline void orient_by_vote(const Neighborhood& n, Radius radius, int members, float (&axis)[3]) noexcept {
-  const int votes = votes_for(n, radius, axis);
-  const bool keep = 2 * votes == members ? middle_votes_for(n, radius, members, axis) : 2 * votes > members;
+inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& census, int votes,
+                           float (&axis)[3]) noexcept {
+  const bool tied = 2 * votes == census.members;
+  const bool keep = tied ? middle_votes_for(n, radius, census, axis) : 2 * votes > census.members;
   if (!keep) negate(axis);
 }
 
@@ -2322,12 +2453,12 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, int members, fl
   float view[3] = {};
   for (int k = 0; k < 3 && towards_viewpoint != nullptr; ++k) view[k] = towards_viewpoint[k];
   if (!math::is_finite(view)) return Status::bad_viewpoint;
-  const detail::WeightedScatter scatter = detail::weighted_scatter(n, radius);
-  if (scatter.members < min_frame_neighbors) return Status::too_few_neighbors;
+  const detail::Census census = detail::take_census(n, radius);
+  if (census.members < min_frame_neighbors) return Status::too_few_neighbors;
 
-  const detail::Eigen3 eigen = detail::decompose(scatter.matrix);
+  const detail::Eigen3 eigen = detail::decompose(detail::weighted_scatter(n, radius, census.farthest_d2));
   // What float can tell apart, and what the rounding of the members to integers may have moved.
-  const float resolution = 1e-6f * eigen.values[2] + 0.5f * static_cast<float>(scatter.members);
+  const float resolution = 1e-6f * eigen.values[2] + 0.5f * static_cast<float>(census.members);
   if (!(eigen.values[2] - eigen.values[1] > resolution && eigen.values[1] - eigen.values[0] > resolution)) {
     return Status::ambiguous_frame;
   }
@@ -2336,10 +2467,11 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, int members, fl
     frame.x[k] = eigen.vectors[2][k];
     frame.z[k] = eigen.vectors[0][k];
   }
-  detail::orient_by_vote(n, radius, scatter.members, frame.x);
+  const detail::AxisVotes votes = detail::count_votes(n, radius, census.copies, frame.x, frame.z);
+  detail::orient_by_vote(n, radius, census, votes.x, frame.x);
   const float towards = dot(view, frame.z);
   if (towards == 0.0f) {  // no viewpoint, or one that does not tell
-    detail::orient_by_vote(n, radius, scatter.members, frame.z);
+    detail::orient_by_vote(n, radius, census, votes.z, frame.z);
   } else if (towards < 0.0f) {
     detail::negate(frame.z);
   }
@@ -2375,10 +2507,7 @@ struct Chunk {
 /// Closest squared distance that is described: the published code skips the key point and its copies by this bound.
 inline constexpr float min_described_d2 = 1e-15f;
 
-/// Is a neighbour with this squared distance described? Those beyond the radius are there for a wider frame.
-[[nodiscard]] inline bool is_described(float d2, Radius radius) noexcept {
-  return d2 > min_described_d2 && d2 < radius.squared;
-}
+/// Which neighbours with these squared distances are described? Those beyond the radius are there for a wider frame.
 [[nodiscard]] inline simd::Mask are_described(simd::F32 d2, Radius radius) noexcept {
   return (d2 > simd::all(min_described_d2)) & (d2 < simd::all(radius.squared));
 }
@@ -2423,31 +2552,6 @@ template <int Borders>
   return distance;
 }
 
-/// The indices of a register of neighbours, from `first` on.
-inline void copy_indices(const Neighborhood& n, std::uint32_t first, std::uint32_t* index) noexcept {
-  if (n.size - first >= simd::lanes) {
-    std::memcpy(index, n.index + first, simd::lanes * sizeof *index);
-  } else {
-    for (std::uint32_t k = 0; k < n.size - first; ++k) index[k] = n.index[first + k];
-  }
-}
-
-/// Keep the described ones of a register of neighbours that was stored in a chunk from `size` on: its new size.
-[[nodiscard]] inline std::uint32_t append_described(const Neighborhood& n, std::uint32_t first, Radius radius,
-                                                    Chunk& chunk, std::uint32_t size) noexcept {
-  const std::uint32_t end = n.size - first < simd::lanes ? n.size : first + static_cast<std::uint32_t>(simd::lanes);
-  std::uint32_t from = size;
-  for (std::uint32_t i = first; i < end; ++i, ++from) {
-    if (!is_described(n.d2[i], radius)) continue;
-    chunk.index[size] = chunk.index[from];
-    chunk.distance[size] = chunk.distance[from];
-    chunk.elevation[size] = chunk.elevation[from];
-    chunk.azimuth[size] = chunk.azimuth[from];
-    ++size;
-  }
-  return size;
-}
-
 /// Neighbours from `first` on into a chunk.
 template <int Borders>
 inline void locate(const Neighborhood& all, std::uint32_t first, const Frame& frame, Radius radius,
@@ -2460,13 +2564,26 @@ inline void locate(const Neighborhood& all, std::uint32_t first, const Frame& fr
   std::uint32_t size = 0;
   for (std::uint32_t i = first; i < end; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
+    const simd::I32 index = load_indices(n, i);
     const Local local{x_axis.along(v), y_axis.along(v), z_axis.along(v)};
-    simd::store(chunk.distance + size, relative_distance<Borders>(v, local, radius));
-    simd::store(chunk.elevation + size, math::elevation(simd::sqrt(local.x * local.x + local.y * local.y), local.z));
-    simd::store(chunk.azimuth + size, math::azimuth(local.x, local.y));
-    copy_indices(n, i, chunk.index + size);
-    size = every(are_described(v.d2, radius)) ? size + static_cast<std::uint32_t>(simd::lanes)
-                                              : append_described(n, i, radius, chunk, size);
+    const simd::F32 distance = relative_distance<Borders>(v, local, radius);
+    const simd::F32 elevation = math::elevation(simd::sqrt(local.x * local.x + local.y * local.y), local.z);
+    const simd::F32 azimuth = math::azimuth(local.x, local.y);
+    const auto append = [&](const auto&... packing) {
+      simd::store(chunk.index + size, index, packing...);
+      simd::store(chunk.distance + size, distance, packing...);
+      simd::store(chunk.elevation + size, elevation, packing...);
+      simd::store(chunk.azimuth + size, azimuth, packing...);
+    };
+    const simd::Mask described = are_described(v.d2, radius);
+    if (every(described)) {
+      append();
+      size += static_cast<std::uint32_t>(simd::lanes);
+    } else {
+      const simd::Packing packing = simd::packing(described);
+      append(packing);
+      size += packing.count;
+    }
   }
   chunk.size = size;
   // What passes read beyond the end must be colours that exist.
@@ -2850,14 +2967,17 @@ struct Extent {
 /// Extent of the valid points; returns how many there are.
 [[nodiscard]] inline std::size_t measure(const CloudView& cloud, Extent& extent) noexcept {
   std::size_t valid = 0;
+  constexpr float most = 3.402823466e38f;
+  Extent e{{most, most, most}, {-most, -most, -most}};  // a local: it stays in registers
   for_each_valid(cloud, [&](std::size_t, const Point& p) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    unroll<3>([&](auto axis) {
       const float v = coordinate(p, axis);
-      if (valid == 0 || v < extent.low[axis]) extent.low[axis] = v;
-      if (valid == 0 || v > extent.high[axis]) extent.high[axis] = v;
-    }
+      e.low[axis] = v < e.low[axis] ? v : e.low[axis];
+      e.high[axis] = v > e.high[axis] ? v : e.high[axis];
+    });
     ++valid;
   });
+  extent = e;
   return valid;
 }
 
@@ -2871,18 +2991,30 @@ struct CellRange {
 /// a range of coordinates always maps to a range of cells, and no box is too small to be right.
 struct GridBox {
   float low[3];
+  float rounding[3];  ///< more than rounding can move a cell's edge, in metres
+  float cell_size;
   float cells_per_metre;
+  float last[3];  ///< dims - 1
   std::uint32_t dims[3];
 
   [[nodiscard]] std::uint32_t cell(int axis, float v) const noexcept {
     const float position = (v - low[axis]) * cells_per_metre;
-    if (!(position > 0.0f)) return 0;
-    const std::uint32_t last = dims[axis] - 1;
-    return position < static_cast<float>(last) ? static_cast<std::uint32_t>(position) : last;
+    const float inside = position > 0.0f ? position : 0.0f;  // NaN, too
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(inside < last[axis] ? inside : last[axis]));
   }
 
   [[nodiscard]] CellRange range(int axis, float center, float reach) const noexcept {
     return {cell(axis, center - reach), cell(axis, center + reach)};
+  }
+
+  /// How far `v` is at least from the points of a cell; 0 in its own cell. Outermost cells have no outer edge, but it
+  /// is always the edge towards v that counts.
+  [[nodiscard]] float gap(int axis, float v, std::uint32_t other) const noexcept {
+    const std::uint32_t own = cell(axis, v);
+    if (other == own) return 0.0f;
+    const float near_edge = low[axis] + static_cast<float>(other < own ? other + 1 : other) * cell_size;
+    const float distance = (other < own ? v - near_edge : near_edge - v) - rounding[axis];
+    return distance > 0.0f ? distance : 0.0f;
   }
 
   [[nodiscard]] std::size_t row(std::uint32_t y, std::uint32_t z) const noexcept {
@@ -2891,6 +3023,16 @@ struct GridBox {
 
   [[nodiscard]] std::size_t cell_of(const Point& p) const noexcept {
     return row(cell(1, p.y), cell(2, p.z)) + cell(0, p.x);
+  }
+
+  /// Cells of half the size, over the same box.
+  void halve_cells() noexcept {
+    cell_size *= 0.5f;
+    cells_per_metre *= 2.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+      dims[axis] *= 2;
+      last[axis] = static_cast<float>(dims[axis] - 1);
+    }
   }
 
   [[nodiscard]] std::size_t cells() const noexcept { return static_cast<std::size_t>(dims[0]) * dims[1] * dims[2]; }
@@ -2902,7 +3044,7 @@ struct GridBox {
   std::size_t room = capacity < 0x7FFFFFFFu ? capacity : 0x7FFFFFFFu;
   for (int axis = 0; axis < 3; ++axis) {
     const float cells = (extent.high[axis] - extent.low[axis]) / cell_size + 1.0f;
-    if (!(cells < 2147483648.0f)) return false;
+    if (!(cells < 8388608.0f)) return false;  // float counts them exactly, and twice as many
     dims[axis] = static_cast<std::uint32_t>(cells);
     room /= dims[axis];
     if (room == 0) return false;
@@ -2955,12 +3097,87 @@ template <class Index>
     fits = count_cells(extent, cell_size, capacity, box.dims);
   }
 
+  box.cell_size = cell_size;
   box.cells_per_metre = 1.0f / cell_size;
   for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] = extent.low[axis];
+    const float low = extent.low[axis];
+    const float high = extent.high[axis];
+    box.low[axis] = low;
+    // A dozen roundings of numbers as large as the coordinates.
+    box.rounding[axis] = 1e-6f * ((low < 0.0f ? 0.0f - low : low) + (high < 0.0f ? 0.0f - high : high));
     if (!fits) box.dims[axis] = 1;  // an extent of all of float's range
+    box.last[axis] = static_cast<float>(box.dims[axis] - 1);
   }
   return box;
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/search/offer_run.hpp: a run of points offered to a neighbourhood, a register of them at a time.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// Points in an order of their own: all x, then all y, then all z; and where they stand in the cloud.
+template <class Index>
+struct SortedPoints {
+  const float* xyz;
+  const Index* order;
+  std::size_t size;
+};
+
+/// The places in the cloud of a register of points.
+template <class Index>
+[[nodiscard]] inline simd::I32 load_indices(const Index* index) noexcept {
+  if constexpr (sizeof(Index) == sizeof(std::uint32_t)) {
+    return simd::load(index);
+  } else {
+    std::uint32_t wide[simd::lanes];
+    for (std::size_t k = 0; k < simd::lanes; ++k) wide[k] = index[k];
+    return simd::load(wide);
+  }
+}
+
+/// offer() for the points [i, end).
+template <class Index>
+inline void offer_run(const SortedPoints<Index>& points, std::size_t i, std::size_t end, const Point& center,
+                      float radius_squared, Neighborhood& out) noexcept {
+  const std::size_t n = points.size;
+  const float* const x = points.xyz;
+  const Index* const order = points.order;
+  // Whole registers are read up to the end of the points, and written up to the capacity.
+  const bool roomy = simd::lanes > 1 && end + simd::lanes <= n && out.capacity - out.size >= end - i + simd::lanes;
+  if (!roomy) {
+    for (; i < end; ++i) offer(out, {x[i], x[n + i], x[2 * n + i]}, order[i], center, radius_squared);
+    return;
+  }
+  const Neighborhood to = out;
+  const simd::F32 center_x = simd::all(center.x);
+  const simd::F32 center_y = simd::all(center.y);
+  const simd::F32 center_z = simd::all(center.z);
+  const simd::F32 limit = simd::all(radius_squared);
+  simd::Mask candidates = simd::first(simd::lanes);
+  std::uint32_t size = to.size;
+  // No branch on who is inside: that is settled by the flip of a coin at every border of the sphere.
+  for (; i < end; i += simd::lanes) {
+    if (end - i < simd::lanes) candidates = simd::first(end - i);
+    const simd::F32 dx = simd::load(x + i) - center_x;
+    const simd::F32 dy = simd::load(x + n + i) - center_y;
+    const simd::F32 dz = simd::load(x + 2 * n + i) - center_z;
+    const simd::F32 d2 = (dx * dx + dy * dy) + dz * dz;
+    const simd::Packing inside = simd::packing((d2 < limit) & candidates);
+    simd::store(to.dx + size, dx, inside);
+    simd::store(to.dy + size, dy, inside);
+    simd::store(to.dz + size, dz, inside);
+    simd::store(to.d2 + size, d2, inside);
+    simd::store(to.index + size, load_indices(order + i), inside);
+    size += inside.count;
+  }
+  out.found += size - out.size;
+  out.size = size;
 }
 
 }  // namespace detail
@@ -3001,10 +3218,46 @@ class Grid {
   using Contents = GridContents<Index>;
 
   [[nodiscard]] Status build(const CloudView& cloud, float cell_size, const Memory& memory) noexcept {
+    const Status status = plan(cloud, cell_size, memory);
+    if (status == Status::ok) sort(memory);
+    return status;
+  }
+
+  /// The first half of build(): settles the box of cells. Of the memory only cell_end is touched.
+  [[nodiscard]] Status plan(const CloudView& cloud, float cell_size, const Memory& memory) noexcept {
     *this = Grid{};
     cloud_ = cloud;
-    status_ = index_points(cell_size, memory);
+    status_ = fit(cell_size, memory);
     return status_;
+  }
+
+  /// Between the halves: eight cells for each one.
+  void halve_cells() noexcept { box_.halve_cells(); }
+
+  /// The second half, a counting sort: count per cell, turn counts into ends of the cells before, and let each placed
+  /// point move its cell's end forward to where it belongs.
+  void sort(const Memory& memory) const noexcept {
+    const GridBox box = box_;  // copies that no store can change stay in registers
+    const Memory to = memory;
+    const std::size_t cells = box.cells();
+    for (std::size_t c = 0; c < cells; ++c) to.cell_end[c] = 0;
+    for_each_valid(cloud_, [&](std::size_t, const Point& p) { ++to.cell_end[box.cell_of(p)]; });
+    Index begin = 0;
+    for (std::size_t c = 0; c < cells; ++c) {
+      const Index count = to.cell_end[c];
+      to.cell_end[c] = begin;
+      begin = static_cast<Index>(begin + count);
+    }
+    float* const x = to.xyz;
+    const std::size_t n = points_;
+    for_each_valid(cloud_, [&](std::size_t index, const Point& p) {
+      const std::size_t place = to.cell_end[box.cell_of(p)]++;
+      to.order[place] = static_cast<Index>(index);
+      if (x == nullptr) return;
+      x[place] = p.x;
+      x[n + place] = p.y;
+      x[2 * n + place] = p.z;
+    });
   }
 
   [[nodiscard]] Status status() const noexcept {
@@ -3012,27 +3265,36 @@ class Grid {
   }
   [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_.size; }
   [[nodiscard]] std::size_t size() const noexcept { return points_; }
+  [[nodiscard]] std::size_t cells() const noexcept { return box_.cells(); }
 
   [[nodiscard]] Status gather(const Contents& contents, const Point& center, Radius radius,
                               Neighborhood& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
-    // The margin covers the rounding of d2: a point inside by d2 is never outside by one coordinate.
-    const float reach = radius.value * 1.000001f;
-    const CellRange x = box_.range(0, center.x, reach);
+    if (!is_finite(center)) return Status::ok;
+    Neighborhood found = out;
+    // The margin covers the rounding of d2, of the gaps and of the chord: each row gets all cells it needs.
+    const float reach = radius.value * 1.000002f;
     const CellRange y = box_.range(1, center.y, reach);
     const CellRange z = box_.range(2, center.z, reach);
     for (std::uint32_t cz = z.first; cz <= z.last; ++cz) {
+      const float gap_z = box_.gap(2, center.z, cz);
       for (std::uint32_t cy = y.first; cy <= y.last; ++cy) {
+        const float gap_y = box_.gap(1, center.y, cy);
+        // Half the chord that the sphere can have in common with this row of cells, squared.
+        const float chord2 = (reach * reach - gap_y * gap_y) - gap_z * gap_z;
+        if (!(chord2 >= 0.0f)) continue;
+        const CellRange x = box_.range(0, center.x, simd::root(chord2));
         const std::size_t row = box_.row(cy, cz);
-        offer_run(contents, begin_of(contents, row + x.first), contents.cell_end[row + x.last], center, radius, out);
+        offer_cells(contents, row + x.first, row + x.last, center, radius.squared, found);
       }
     }
+    out = found;
     return outcome(out);
   }
 
  private:
-  [[nodiscard]] Status index_points(float cell_size, const Memory& memory) noexcept {
+  [[nodiscard]] Status fit(float cell_size, const Memory& memory) noexcept {
     const Status usable = check(cloud_);
     if (usable != Status::ok) return usable;
     if (check(Radius(cell_size)) != Status::ok) return Status::bad_radius;
@@ -3046,7 +3308,6 @@ class Grid {
 
     box_ = fit_box(cloud_, extent, valid, cell_size, memory.cell_end, memory.cell_capacity);
     points_ = valid;
-    sort(memory);
     return Status::ok;
   }
 
@@ -3055,42 +3316,19 @@ class Grid {
     return cell == 0 ? 0 : contents.cell_end[cell - 1];
   }
 
-  void offer_run(const Contents& contents, std::size_t begin, std::size_t end, const Point& center, Radius radius,
-                 Neighborhood& out) const noexcept {
-    std::size_t i = begin;
-    if (contents.xyz == nullptr) {
-      for (; i < end; ++i) offer(out, point(cloud_, contents.order[i]), contents.order[i], center, radius.squared);
+  /// Cells that follow each other are one run of points.
+  void offer_cells(const Contents& contents, std::size_t first, std::size_t last, const Point& center,
+                   float radius_squared, Neighborhood& out) const noexcept {
+    const std::size_t begin = begin_of(contents, first);
+    const std::size_t end = contents.cell_end[last];
+    if (contents.xyz != nullptr) {
+      if (begin < end)
+        offer_run<Index>({contents.xyz, contents.order, points_}, begin, end, center, radius_squared, out);
       return;
     }
-    const float* x = contents.xyz;
-    const float* y = x + points_;
-    const float* z = y + points_;
-    for (; i + simd::lanes <= end; i += simd::lanes) {
-      offer_lanes(out, x + i, y + i, z + i, contents.order + i, center, radius.squared);
+    for (std::size_t i = begin; i < end; ++i) {
+      offer(out, point(cloud_, contents.order[i]), contents.order[i], center, radius_squared);
     }
-    for (; i < end; ++i) offer(out, {x[i], y[i], z[i]}, contents.order[i], center, radius.squared);
-  }
-
-  /// Counting sort: count per cell, turn counts into ends of the cells before, and let each placed point move its
-  /// cell's end forward to where it belongs.
-  void sort(const Memory& memory) noexcept {
-    const std::size_t cells = box_.cells();
-    for (std::size_t c = 0; c < cells; ++c) memory.cell_end[c] = 0;
-    for_each_valid(cloud_, [&](std::size_t, const Point& p) { ++memory.cell_end[box_.cell_of(p)]; });
-    Index begin = 0;
-    for (std::size_t c = 0; c < cells; ++c) {
-      const Index count = memory.cell_end[c];
-      memory.cell_end[c] = begin;
-      begin = static_cast<Index>(begin + count);
-    }
-    for_each_valid(cloud_, [&](std::size_t index, const Point& p) {
-      const std::size_t place = memory.cell_end[box_.cell_of(p)]++;
-      memory.order[place] = static_cast<Index>(index);
-      if (memory.xyz == nullptr) return;
-      memory.xyz[place] = p.x;
-      memory.xyz[points_ + place] = p.y;
-      memory.xyz[2 * points_ + place] = p.z;
-    });
   }
 
   CloudView cloud_;
@@ -3111,9 +3349,9 @@ class GridIndex {
 
  public:
   /// Sort the cloud's valid points into cells of `cell_size` metres; best close to the search radius, or half of it for
-  /// a thousand neighbours and more. Where the cells would not fit the memory (clouds of huge extent, far outliers) the
-  /// outliers are put into the outermost cells and, if that is not enough, cells become larger: any cell size gives
-  /// the same neighbours, only slower.
+  /// several hundred neighbours and more. Where the cells would not fit the memory (clouds of huge extent, far
+  /// outliers) the outliers are put into the outermost cells and, if that is not enough, cells become larger: any cell
+  /// size gives the same neighbours, only slower.
   ///
   /// Statuses: empty_cloud, bad_view, bad_radius (the cell size), out_of_memory (more valid points than
   /// point_capacity, points with indices beyond Index, or no cell). O(points + cells); allocates nothing.
@@ -3765,26 +4003,39 @@ inline namespace SHORTSHOT_ISA {
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
-/// A fixed-radius grid that owns its memory: 16 bytes a point and 4 a cell, with at most four cells a point (and 4,096)
-/// whatever the cloud's extent. A search (see brute.hpp); the cloud must outlive it. build() again for the next frame:
-/// its memory is reused. Queries are thread-safe.
+/// A fixed-radius grid that owns its memory: 16 bytes a valid point and 4 a cell, with as many cells as the cloud's box
+/// holds, but at most four a point (and 4,096). A search (see brute.hpp); the cloud must outlive it. build() again for
+/// the next frame: its memory is reused. Queries are thread-safe.
 class GridSearch {
  public:
   GridSearch() = default;
 
-  /// Sorts the cloud into cells of `radius`. If that fails status() says why, and so do extract() and describe_at().
+  /// Sorts the cloud into cells of `radius`, or of half of it where points are dense. If that fails status() says why,
+  /// and so do extract() and describe_at().
   GridSearch(const CloudView& cloud, float radius) { static_cast<void>(build(cloud, radius)); }
 
   /// See GridIndex::build(); may throw std::bad_alloc.
   [[nodiscard]] Status build(const CloudView& cloud, float radius) {
     const std::size_t points = check(cloud) == Status::ok ? cloud.size : 0;  // a bad view says anything of its size
     const std::size_t cells = 4 * points + 4096;
-    if (order_.size() < points) {
-      order_.resize(points);
-      xyz_.resize(3 * points);
+    if (cell_end_.size() < planning_cells) cell_end_.resize(planning_cells);
+    grid_ = {};  // and so it stays if there is no memory
+    detail::Grid<std::uint32_t> next{};
+    if (next.plan(cloud, radius, {nullptr, cell_end_.data(), nullptr, points, cells}) != Status::ok) {
+      grid_ = next;
+      return next.status();
     }
-    if (cell_end_.size() < cells) cell_end_.resize(cells);
-    return grid_.build(cloud, radius, {order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cells});
+    // Points lie on surfaces, which pass through few cells of their box: 8 points a cell of the box mean hundreds in
+    // those that are not empty, and then smaller cells, fewer of whose points lie outside the sphere, pay.
+    if (8 * next.cells() <= next.size()) next.halve_cells();
+    if (order_.size() < next.size()) {
+      order_.resize(next.size());
+      xyz_.resize(3 * next.size());
+    }
+    if (cell_end_.size() < next.cells()) cell_end_.resize(next.cells());
+    next.sort({order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cell_end_.size()});
+    grid_ = next;
+    return Status::ok;
   }
 
   [[nodiscard]] Status status() const noexcept { return grid_.status(); }
@@ -3795,6 +4046,8 @@ class GridSearch {
   }
 
  private:
+  static constexpr std::size_t planning_cells = 64;
+
   detail::Grid<std::uint32_t> grid_{};
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> cell_end_;

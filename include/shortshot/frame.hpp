@@ -46,14 +46,32 @@ inline void negate(float (&axis)[3]) noexcept {
   for (float& component : axis) component = 0.0f - component;
 }
 
-/// Pass 1: how far the members reach, as the squared distance of the farthest one.
-[[nodiscard]] inline float farthest_member_d2(const Neighborhood& n, Radius radius) noexcept {
-  simd::F32 farthest = simd::all(0.0f);
+/// A neighbour within the frame's radius is a member, unless it is a copy of the key point. Copies move no sum; where
+/// members are counted, the copies' number is taken off.
+[[nodiscard]] inline simd::Mask within(const Offsets& v, Radius radius) noexcept {
+  return v.d2 < simd::all(radius.squared);
+}
+
+/// Pass 1: how far the members reach, as the squared distance of the farthest one, and how many there are.
+struct Census {
+  float farthest_d2;
+  int members;
+  int copies;  ///< of the key point, with those that fill up the last register
+};
+
+[[nodiscard]] inline Census take_census(const Neighborhood& n, Radius radius) noexcept {
+  const simd::F32 zero = simd::all(0.0f);
+  simd::F32 farthest = zero;
+  simd::I32 inside{}, apart{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
-    farthest = simd::max(farthest, keep(are_members(v, radius), v.d2));
+    const simd::Mask near = within(v, radius);
+    farthest = simd::max(farthest, keep(near, v.d2));
+    inside = increment(near, inside);
+    apart = increment(near & ((v.dx != zero) | (v.dy != zero) | (v.dz != zero)), apart);
   }
-  return simd::largest(farthest);
+  const int members = sum(apart);
+  return {simd::largest(farthest), members, sum(inside) - members};
 }
 
 /// How members are brought to fixed point: coordinates times `unit`, a power of two (so that nothing is rounded) that
@@ -77,56 +95,63 @@ struct MemberScale {
 }
 
 /// Pass 2: sum of w v v^T over the members (PCL's matrix but for its scale, which moves no eigenvector).
-struct WeightedScatter {
-  Symmetric3 matrix;
-  int members;
-};
-
-[[nodiscard]] inline WeightedScatter weighted_scatter(const Neighborhood& n, Radius radius) noexcept {
+[[nodiscard]] inline Symmetric3 weighted_scatter(const Neighborhood& n, Radius radius, float farthest_d2) noexcept {
   using simd::all;
-  const MemberScale to = member_scale(n.size, farthest_member_d2(n, radius), radius);
-  const simd::F32 unit = all(to.unit);
-  const simd::F32 inverse = all(1.0f / radius.value);
-  simd::I32 xx{}, xy{}, xz{}, yy{}, yz{}, zz{}, members{};
+  using simd::F32;
+  const MemberScale to = member_scale(n.size, farthest_d2, radius);
+  const F32 unit = all(to.unit);
+  const F32 scale = all(to.scale);
+  const F32 inverse = all(1.0f / radius.value);
+  simd::I32 xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
-    const simd::Mask member = are_members(v, radius);
-    const simd::F32 x = keep(member, v.dx) * unit;
-    const simd::F32 y = keep(member, v.dy) * unit;
-    const simd::F32 z = keep(member, v.dz) * unit;
-    const simd::F32 w = (all(1.0f) - simd::sqrt(keep(member, v.d2)) * inverse) * all(to.scale);
-    const simd::F32 wx = w * x;
-    const simd::F32 wy = w * y;
+    const F32 x = v.dx * unit;
+    const F32 y = v.dy * unit;
+    const F32 z = v.dz * unit;
+    const F32 w = keep(within(v, radius), (all(1.0f) - simd::sqrt(v.d2) * inverse) * scale);
+    const F32 wx = w * x;
+    const F32 wy = w * y;
     xx = xx + round_to_int(wx * x);
     xy = xy + round_to_int(wx * y);
     xz = xz + round_to_int(wx * z);
     yy = yy + round_to_int(wy * y);
     yz = yz + round_to_int(wy * z);
     zz = zz + round_to_int(w * z * z);
-    members = members + ones(member);
   }
   const auto total = [](simd::I32 lanes) { return static_cast<float>(sum(lanes)); };
-  return {{total(xx), total(xy), total(xz), total(yy), total(yz), total(zz)}, sum(members)};
+  return {total(xx), total(xy), total(xz), total(yy), total(yz), total(zz)};
 }
 
-/// Pass 3: how many members have v . axis >= 0.
-[[nodiscard]] inline int votes_for(const Neighborhood& n, Radius radius, const float (&axis)[3]) noexcept {
+/// Pass 3: for each of two axes, how many members have v . axis >= 0.
+struct AxisVotes {
+  int x;
+  int z;
+};
+
+[[nodiscard]] inline AxisVotes count_votes(const Neighborhood& n, Radius radius, int copies, const float (&x)[3],
+                                           const float (&z)[3]) noexcept {
   using simd::all;
-  simd::I32 votes{};
+  using simd::F32;
+  const F32 x_axis[3] = {all(x[0]), all(x[1]), all(x[2])};
+  const F32 z_axis[3] = {all(z[0]), all(z[1]), all(z[2])};
+  simd::I32 for_x{}, for_z{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
-    const simd::F32 along = (v.dx * all(axis[0]) + v.dz * all(axis[2])) + v.dy * all(axis[1]);
-    votes = votes + ones((along >= all(0.0f)) & are_members(v, radius));
+    const simd::Mask near = within(v, radius);
+    const F32 along_x = (v.dx * x_axis[0] + v.dz * x_axis[2]) + v.dy * x_axis[1];
+    const F32 along_z = (v.dx * z_axis[0] + v.dz * z_axis[2]) + v.dy * z_axis[1];
+    for_x = increment((along_x >= all(0.0f)) & near, for_x);
+    for_z = increment((along_z >= all(0.0f)) & near, for_z);
   }
-  return sum(votes);
+  return {sum(for_x) - copies, sum(for_z) - copies};
 }
 
 /// PCL's answer to a tied vote: of the five members in the middle of the order by distance, do at least three have
 /// v . axis > 0?
-[[nodiscard]] inline bool middle_votes_for(const Neighborhood& n, Radius radius, int members,
+[[nodiscard]] inline bool middle_votes_for(const Neighborhood& n, Radius radius, const Census& census,
                                            const float (&axis)[3]) noexcept {
   int votes = 0;
-  std::uint32_t i = member_of_rank(n, radius, members / 2 - 2);
+  std::uint32_t i = member_of_rank(n, radius, census.members / 2 - 2);
   for (int k = 0; k < 5 && i < n.size; ++k) {
     const float v[3] = {n.dx[i], n.dy[i], n.dz[i]};
     votes += dot(v, axis) > 0.0f ? 1 : 0;
@@ -136,9 +161,10 @@ struct WeightedScatter {
 }
 
 /// Turn an axis towards the majority of the members.
-inline void orient_by_vote(const Neighborhood& n, Radius radius, int members, float (&axis)[3]) noexcept {
-  const int votes = votes_for(n, radius, axis);
-  const bool keep = 2 * votes == members ? middle_votes_for(n, radius, members, axis) : 2 * votes > members;
+inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& census, int votes,
+                           float (&axis)[3]) noexcept {
+  const bool tied = 2 * votes == census.members;
+  const bool keep = tied ? middle_votes_for(n, radius, census, axis) : 2 * votes > census.members;
   if (!keep) negate(axis);
 }
 
@@ -166,12 +192,12 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, int members, fl
   float view[3] = {};
   for (int k = 0; k < 3 && towards_viewpoint != nullptr; ++k) view[k] = towards_viewpoint[k];
   if (!math::is_finite(view)) return Status::bad_viewpoint;
-  const detail::WeightedScatter scatter = detail::weighted_scatter(n, radius);
-  if (scatter.members < min_frame_neighbors) return Status::too_few_neighbors;
+  const detail::Census census = detail::take_census(n, radius);
+  if (census.members < min_frame_neighbors) return Status::too_few_neighbors;
 
-  const detail::Eigen3 eigen = detail::decompose(scatter.matrix);
+  const detail::Eigen3 eigen = detail::decompose(detail::weighted_scatter(n, radius, census.farthest_d2));
   // What float can tell apart, and what the rounding of the members to integers may have moved.
-  const float resolution = 1e-6f * eigen.values[2] + 0.5f * static_cast<float>(scatter.members);
+  const float resolution = 1e-6f * eigen.values[2] + 0.5f * static_cast<float>(census.members);
   if (!(eigen.values[2] - eigen.values[1] > resolution && eigen.values[1] - eigen.values[0] > resolution)) {
     return Status::ambiguous_frame;
   }
@@ -180,10 +206,11 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, int members, fl
     frame.x[k] = eigen.vectors[2][k];
     frame.z[k] = eigen.vectors[0][k];
   }
-  detail::orient_by_vote(n, radius, scatter.members, frame.x);
+  const detail::AxisVotes votes = detail::count_votes(n, radius, census.copies, frame.x, frame.z);
+  detail::orient_by_vote(n, radius, census, votes.x, frame.x);
   const float towards = dot(view, frame.z);
   if (towards == 0.0f) {  // no viewpoint, or one that does not tell
-    detail::orient_by_vote(n, radius, scatter.members, frame.z);
+    detail::orient_by_vote(n, radius, census, votes.z, frame.z);
   } else if (towards < 0.0f) {
     detail::negate(frame.z);
   }

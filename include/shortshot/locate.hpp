@@ -31,10 +31,7 @@ struct Chunk {
 /// Closest squared distance that is described: the published code skips the key point and its copies by this bound.
 inline constexpr float min_described_d2 = 1e-15f;
 
-/// Is a neighbour with this squared distance described? Those beyond the radius are there for a wider frame.
-[[nodiscard]] inline bool is_described(float d2, Radius radius) noexcept {
-  return d2 > min_described_d2 && d2 < radius.squared;
-}
+/// Which neighbours with these squared distances are described? Those beyond the radius are there for a wider frame.
 [[nodiscard]] inline simd::Mask are_described(simd::F32 d2, Radius radius) noexcept {
   return (d2 > simd::all(min_described_d2)) & (d2 < simd::all(radius.squared));
 }
@@ -79,31 +76,6 @@ template <int Borders>
   return distance;
 }
 
-/// The indices of a register of neighbours, from `first` on.
-inline void copy_indices(const Neighborhood& n, std::uint32_t first, std::uint32_t* index) noexcept {
-  if (n.size - first >= simd::lanes) {
-    std::memcpy(index, n.index + first, simd::lanes * sizeof *index);
-  } else {
-    for (std::uint32_t k = 0; k < n.size - first; ++k) index[k] = n.index[first + k];
-  }
-}
-
-/// Keep the described ones of a register of neighbours that was stored in a chunk from `size` on: its new size.
-[[nodiscard]] inline std::uint32_t append_described(const Neighborhood& n, std::uint32_t first, Radius radius,
-                                                    Chunk& chunk, std::uint32_t size) noexcept {
-  const std::uint32_t end = n.size - first < simd::lanes ? n.size : first + static_cast<std::uint32_t>(simd::lanes);
-  std::uint32_t from = size;
-  for (std::uint32_t i = first; i < end; ++i, ++from) {
-    if (!is_described(n.d2[i], radius)) continue;
-    chunk.index[size] = chunk.index[from];
-    chunk.distance[size] = chunk.distance[from];
-    chunk.elevation[size] = chunk.elevation[from];
-    chunk.azimuth[size] = chunk.azimuth[from];
-    ++size;
-  }
-  return size;
-}
-
 /// Neighbours from `first` on into a chunk.
 template <int Borders>
 inline void locate(const Neighborhood& all, std::uint32_t first, const Frame& frame, Radius radius,
@@ -116,13 +88,26 @@ inline void locate(const Neighborhood& all, std::uint32_t first, const Frame& fr
   std::uint32_t size = 0;
   for (std::uint32_t i = first; i < end; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
+    const simd::I32 index = load_indices(n, i);
     const Local local{x_axis.along(v), y_axis.along(v), z_axis.along(v)};
-    simd::store(chunk.distance + size, relative_distance<Borders>(v, local, radius));
-    simd::store(chunk.elevation + size, math::elevation(simd::sqrt(local.x * local.x + local.y * local.y), local.z));
-    simd::store(chunk.azimuth + size, math::azimuth(local.x, local.y));
-    copy_indices(n, i, chunk.index + size);
-    size = every(are_described(v.d2, radius)) ? size + static_cast<std::uint32_t>(simd::lanes)
-                                              : append_described(n, i, radius, chunk, size);
+    const simd::F32 distance = relative_distance<Borders>(v, local, radius);
+    const simd::F32 elevation = math::elevation(simd::sqrt(local.x * local.x + local.y * local.y), local.z);
+    const simd::F32 azimuth = math::azimuth(local.x, local.y);
+    const auto append = [&](const auto&... packing) {
+      simd::store(chunk.index + size, index, packing...);
+      simd::store(chunk.distance + size, distance, packing...);
+      simd::store(chunk.elevation + size, elevation, packing...);
+      simd::store(chunk.azimuth + size, azimuth, packing...);
+    };
+    const simd::Mask described = are_described(v.d2, radius);
+    if (every(described)) {
+      append();
+      size += static_cast<std::uint32_t>(simd::lanes);
+    } else {
+      const simd::Packing packing = simd::packing(described);
+      append(packing);
+      size += packing.count;
+    }
   }
   chunk.size = size;
   // What passes read beyond the end must be colours that exist.

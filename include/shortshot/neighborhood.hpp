@@ -9,7 +9,6 @@
 #include "math.hpp"
 #include "simd.hpp"
 #include "status.hpp"
-#include "unroll.hpp"
 
 namespace shortshot {
 
@@ -80,7 +79,8 @@ struct Offsets {
   if (n.size - i >= simd::lanes) {
     return {simd::load(n.dx + i), simd::load(n.dy + i), simd::load(n.dz + i), simd::load(n.d2 + i)};
   }
-  float rest[4][simd::lanes] = {};
+  float rest[4][simd::lanes];
+  for (float(&lanes)[simd::lanes] : rest) simd::store(lanes, simd::all(0.0f));
   for (std::uint32_t k = 0; k < n.size - i; ++k) {
     rest[0][k] = n.dx[i + k];
     rest[1][k] = n.dy[i + k];
@@ -88,6 +88,14 @@ struct Offsets {
     rest[3][k] = n.d2[i + k];
   }
   return {simd::load(rest[0]), simd::load(rest[1]), simd::load(rest[2]), simd::load(rest[3])};
+}
+
+/// The same register's indices; 0 for what is left over.
+[[nodiscard]] inline simd::I32 load_indices(const Neighborhood& n, std::uint32_t i) noexcept {
+  if (n.size - i >= simd::lanes) return simd::load(n.index + i);
+  std::uint32_t rest[simd::lanes] = {};
+  for (std::uint32_t k = 0; k < n.size - i; ++k) rest[k] = n.index[i + k];
+  return simd::load(rest);
 }
 
 /// Offer one point of the cloud to the neighbourhood: THE membership rule, for every search. A point is a neighbour if
@@ -108,52 +116,6 @@ inline void offer(Neighborhood& out, const Point& p, std::uint32_t index, const 
     ++out.size;
   }
   ++out.found;
-}
-
-/// The same rule for simd::lanes points at once, from arrays of coordinates and indices.
-template <class Index>
-inline void offer_lanes(Neighborhood& out, const float* x, const float* y, const float* z, const Index* index,
-                        const Point& center, float radius_squared) noexcept {
-  const simd::F32 dx = simd::load(x) - simd::all(center.x);
-  const simd::F32 dy = simd::load(y) - simd::all(center.y);
-  const simd::F32 dz = simd::load(z) - simd::all(center.z);
-  const simd::F32 d2 = (dx * dx + dy * dy) + dz * dz;
-  const simd::Mask inside = d2 < simd::all(radius_squared);
-  if (!any(inside)) return;
-  if (out.capacity - out.size < simd::lanes) {  // no room for a whole register: one by one
-    for (std::size_t k = 0; k < simd::lanes; ++k) offer(out, {x[k], y[k], z[k]}, index[k], center, radius_squared);
-    return;
-  }
-  float* const out_dx = out.dx + out.size;
-  float* const out_dy = out.dy + out.size;
-  float* const out_dz = out.dz + out.size;
-  float* const out_d2 = out.d2 + out.size;
-  std::uint32_t* const out_index = out.index + out.size;
-  std::uint32_t added = 0;
-  if (every(inside)) {  // most: neighbours come in runs
-    simd::store(out_dx, dx);
-    simd::store(out_dy, dy);
-    simd::store(out_dz, dz);
-    simd::store(out_d2, d2);
-    for (std::size_t k = 0; k < simd::lanes; ++k) out_index[k] = index[k];
-    added = static_cast<std::uint32_t>(simd::lanes);
-  } else {  // no branches: each is written, and the next one overwrites it unless it is inside
-    float values[4][simd::lanes];
-    simd::store(values[0], dx);
-    simd::store(values[1], dy);
-    simd::store(values[2], dz);
-    simd::store(values[3], d2);
-    detail::unroll<static_cast<int>(simd::lanes)>([&](auto k) {
-      out_dx[added] = values[0][k];
-      out_dy[added] = values[1][k];
-      out_dz[added] = values[2][k];
-      out_d2[added] = values[3][k];
-      out_index[added] = index[k];
-      added += values[3][k] < radius_squared ? 1u : 0u;
-    });
-  }
-  out.size += added;
-  out.found += added;
 }
 
 /// To be called by a search before it offers the first point.

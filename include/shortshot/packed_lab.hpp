@@ -36,7 +36,8 @@ class PackedLab {
   /// The nearest of 0..last; 0 for NaN.
   [[nodiscard]] static std::uint32_t code(float steps, float last) noexcept {
     const float positive = steps > 0.0f ? steps : 0.0f;
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>((positive < last ? positive : last) + 0.5f));
+    const float border = 0.5f + (positive < last ? positive : last);
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(border));
   }
 
   std::uint32_t bits_;

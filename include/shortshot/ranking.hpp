@@ -21,13 +21,6 @@ namespace detail {
   return n.d2[i] < radius.squared && (n.dx[i] != 0.0f || n.dy[i] != 0.0f || n.dz[i] != 0.0f);
 }
 
-/// The same for a register of neighbours.
-[[nodiscard]] inline simd::Mask are_members(const Offsets& v, Radius radius) noexcept {
-  const simd::F32 zero = simd::all(0.0f);
-  const simd::Mask apart = (simd::abs(v.dx) > zero) | (simd::abs(v.dy) > zero) | (simd::abs(v.dz) > zero);
-  return apart & (v.d2 < simd::all(radius.squared));
-}
-
 /// A place in the order of members: by squared distance, then by index in the cloud (below all of them: -1).
 struct Place {
   float d2;
@@ -49,15 +42,22 @@ struct Place {
   return best;
 }
 
-/// How many members have a squared distance of at most `limit`.
-[[nodiscard]] inline int members_within(const Neighborhood& n, Radius radius, float limit) noexcept {
-  int members = 0;
-  for (std::uint32_t i = 0; i < n.size; ++i) members += n.d2[i] <= limit && is_member(n, i, radius) ? 1 : 0;
-  return members;
+/// How many neighbours have a squared distance of at most `limit`.
+[[nodiscard]] inline int count_within(const Neighborhood& n, float limit) noexcept {
+  simd::I32 within{};
+  std::uint32_t i = 0;
+  for (; n.size - i >= simd::lanes; i += simd::lanes) {
+    within = increment(simd::all(limit) >= simd::load(n.d2 + i), within);
+  }
+  int count = sum(within);
+  for (; i < n.size; ++i) count += n.d2[i] <= limit ? 1 : 0;
+  return count;
 }
 
 /// The member of the given rank; rank 0 is the closest. The neighbourhood must have more members than that.
 [[nodiscard]] inline std::uint32_t member_of_rank(const Neighborhood& n, Radius radius, int rank) noexcept {
+  int copies = 0;  // of the key point: at distance 0, and within every limit
+  for (std::uint32_t i = 0; i < n.size; ++i) copies += n.d2[i] == 0.0f && !is_member(n, i, radius) ? 1 : 0;
   const auto as_float = [](std::uint32_t bits) {
     float value = 0.0f;
     std::memcpy(&value, &bits, sizeof value);
@@ -69,14 +69,14 @@ struct Place {
   std::memcpy(&high, &radius.squared, sizeof high);
   while (low < high) {
     const std::uint32_t middle = low + (high - low) / 2;
-    if (members_within(n, radius, as_float(middle)) > rank) {
+    if (count_within(n, as_float(middle)) - copies > rank) {
       high = middle;
     } else {
       low = middle + 1;
     }
   }
   const float d2 = as_float(low);
-  const int closer = low == 0 ? 0 : members_within(n, radius, as_float(low - 1));
+  const int closer = low == 0 ? 0 : count_within(n, as_float(low - 1)) - copies;
   std::uint32_t member = next_member(n, radius, {d2, -1});
   for (int k = closer; k < rank; ++k) member = next_member(n, radius, {d2, n.index[member]});
   return member;

@@ -29,8 +29,12 @@ struct Mask {
 [[nodiscard]] inline float root(float value) noexcept { return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(value))); }
 
 [[nodiscard]] inline F32 load(const float* p) noexcept { return {_mm256_loadu_ps(p)}; }
+[[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept {
+  return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))};
+}
 inline void store(float* p, F32 a) noexcept { _mm256_storeu_ps(p, a.v); }
 inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v); }
+inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {_mm256_set1_ps(value)}; }
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm256_add_ps(a.v, b.v)}; }
@@ -41,6 +45,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GT_OQ)}; }
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
+[[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm256_and_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {_mm256_xor_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm256_or_ps(a.v, b.v)}; }
@@ -62,8 +67,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {_mm256_and_ps(m.v, a.v)}; }
 [[nodiscard]] inline bool any(Mask m) noexcept { return _mm256_movemask_ps(m.v) != 0; }
 [[nodiscard]] inline bool every(Mask m) noexcept { return _mm256_movemask_ps(m.v) == 0xFF; }
-/// 1 where m, else zero.
-[[nodiscard]] inline I32 ones(Mask m) noexcept { return {_mm256_srli_epi32(_mm256_castps_si256(m.v), 31)}; }
+/// a + 1 where m, else a.
+[[nodiscard]] inline I32 increment(Mask m, I32 a) noexcept { return {_mm256_sub_epi32(a.v, _mm256_castps_si256(m.v))}; }
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {_mm256_castps_si256(a.v)}; }
@@ -79,9 +84,6 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm256_cvtps_epi32(a.v)}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept {
-  return {_mm256_loadu_si256(reinterpret_cast<const __m256i*>(p))};
-}
 [[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {_mm256_set1_epi32(value)}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {_mm256_sub_epi32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {_mm256_and_si256(a.v, b.v)}; }
@@ -134,6 +136,49 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinter
   a = {_mm256_shuffle_ps(ab[0], ab[1], _MM_SHUFFLE(2, 0, 2, 0))};
   b = {_mm256_shuffle_ps(bc[0], bc[1], _MM_SHUFFLE(2, 0, 2, 0))};
   c = {_mm256_shuffle_ps(bc[0], bc[1], _MM_SHUFFLE(3, 1, 3, 1))};
+}
+
+/// Lanes 0 to count - 1; count is 1 or more.
+[[nodiscard]] inline Mask first(std::size_t count) noexcept {
+  const __m256i limit = _mm256_set1_epi32(static_cast<int>(count));
+  return {_mm256_castsi256_ps(_mm256_cmpgt_epi32(limit, _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7)))};
+}
+
+/// For each set of lanes their numbers in ascending order, four bits each, the lowest bits first.
+struct LaneLists {
+  std::uint32_t of[256];
+  constexpr LaneLists() noexcept : of{} {
+    for (std::uint32_t set = 0; set < 256; ++set) {
+      std::uint32_t count = 0;
+      for (std::uint32_t lane = 0; lane < 8; ++lane) {
+        if ((set >> lane & 1u) != 0) of[set] |= lane << 4 * count++;
+      }
+    }
+  }
+};
+inline constexpr LaneLists lane_lists{};
+
+/// How store() packs the lanes where a mask is set.
+struct Packing {
+  __m256i lanes;
+  std::uint32_t count;
+};
+
+[[nodiscard]] inline Packing packing(Mask m) noexcept {
+  const auto set = static_cast<std::uint32_t>(_mm256_movemask_ps(m.v));
+  const __m256i list = _mm256_set1_epi32(static_cast<int>(lane_lists.of[set]));
+  // Permutations look at the lowest three bits of each lane only.
+  return {_mm256_srlv_epi32(list, _mm256_setr_epi32(0, 4, 8, 12, 16, 20, 24, 28)),
+          static_cast<std::uint32_t>(__builtin_popcount(set))};
+}
+
+/// The lanes where the mask is set, one behind the other; what is written behind them, up to a register's length, means
+/// nothing.
+inline void store(float* p, F32 a, const Packing& packing) noexcept {
+  _mm256_storeu_ps(p, _mm256_permutevar8x32_ps(a.v, packing.lanes));
+}
+inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm256_permutevar8x32_epi32(a.v, packing.lanes));
 }
 
 }  // namespace simd

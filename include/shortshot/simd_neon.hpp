@@ -29,8 +29,10 @@ struct Mask {
 [[nodiscard]] inline float root(float value) noexcept { return vget_lane_f32(vsqrt_f32(vdup_n_f32(value)), 0); }
 
 [[nodiscard]] inline F32 load(const float* p) noexcept { return {vld1q_f32(p)}; }
+[[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept { return {vreinterpretq_s32_u32(vld1q_u32(p))}; }
 inline void store(float* p, F32 a) noexcept { vst1q_f32(p, a.v); }
 inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
+inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq_u32_s32(a.v)); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {vdupq_n_f32(value)}; }
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {vaddq_f32(a.v, b.v)}; }
@@ -41,6 +43,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {vcltq_f32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {vcgtq_f32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {vcgeq_f32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {vmvnq_u32(vceqq_f32(a.v, b.v))}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {vandq_u32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {veorq_u32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {vorrq_u32(a.v, b.v)}; }
@@ -62,8 +65,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 }
 [[nodiscard]] inline bool any(Mask m) noexcept { return vmaxvq_u32(m.v) != 0; }
 [[nodiscard]] inline bool every(Mask m) noexcept { return vminvq_u32(m.v) != 0; }
-/// 1 where m, else zero.
-[[nodiscard]] inline I32 ones(Mask m) noexcept { return {vreinterpretq_s32_u32(vshrq_n_u32(m.v, 31))}; }
+/// a + 1 where m, else a.
+[[nodiscard]] inline I32 increment(Mask m, I32 a) noexcept { return {vsubq_s32(a.v, vreinterpretq_s32_u32(m.v))}; }
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {vreinterpretq_s32_f32(a.v)}; }
@@ -77,7 +80,6 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {vcvtnq_s32_f32(a.v)}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept { return {vld1q_s32(p)}; }
 [[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {vdupq_n_s32(value)}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {vsubq_s32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {vandq_s32(a.v, b.v)}; }
@@ -119,6 +121,48 @@ inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
   a = {abc.val[0]};
   b = {abc.val[1]};
   c = {abc.val[2]};
+}
+
+inline constexpr std::uint32_t lane_numbers[4] = {0, 1, 2, 3};
+
+/// Lanes 0 to count - 1; count is 1 or more.
+[[nodiscard]] inline Mask first(std::size_t count) noexcept {
+  return {vcltq_u32(vld1q_u32(lane_numbers), vdupq_n_u32(static_cast<std::uint32_t>(count)))};
+}
+
+/// For each set of lanes the bytes of its lanes, in ascending order.
+struct LaneBytes {
+  std::uint8_t of[16][16];
+  constexpr LaneBytes() noexcept : of{} {
+    for (std::uint32_t set = 0; set < 16; ++set) {
+      std::uint32_t place = 0;
+      for (std::uint32_t byte = 0; byte < 16; ++byte) {
+        if ((set >> byte / 4 & 1u) != 0) of[set][place++] = static_cast<std::uint8_t>(byte);
+      }
+    }
+  }
+};
+inline constexpr LaneBytes lane_bytes{};
+inline constexpr std::uint32_t lane_bits[4] = {1, 2, 4, 8};
+
+/// How store() packs the lanes where a mask is set.
+struct Packing {
+  uint8x16_t bytes;
+  std::uint32_t count;
+};
+
+[[nodiscard]] inline Packing packing(Mask m) noexcept {
+  const std::uint32_t set = vaddvq_u32(vandq_u32(m.v, vld1q_u32(lane_bits)));
+  return {vld1q_u8(lane_bytes.of[set]), vaddvq_u32(vshrq_n_u32(m.v, 31))};
+}
+
+/// The lanes where the mask is set, one behind the other; what is written behind them, up to a register's length, means
+/// nothing.
+inline void store(float* p, F32 a, const Packing& packing) noexcept {
+  vst1q_f32(p, vreinterpretq_f32_u8(vqtbl1q_u8(vreinterpretq_u8_f32(a.v), packing.bytes)));
+}
+inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
+  vst1q_u32(p, vreinterpretq_u32_u8(vqtbl1q_u8(vreinterpretq_u8_s32(a.v), packing.bytes)));
 }
 
 }  // namespace simd

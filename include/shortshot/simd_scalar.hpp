@@ -37,8 +37,10 @@ struct Mask {
 }
 
 [[nodiscard]] inline F32 load(const float* p) noexcept { return {*p}; }
+[[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept { return {static_cast<std::int32_t>(*p)}; }
 inline void store(float* p, F32 a) noexcept { *p = a.v; }
 inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
+inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint32_t>(a.v); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {value}; }
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {a.v + b.v}; }
@@ -49,6 +51,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {a.v < b.v}; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {a.v > b.v}; }
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {a.v >= b.v}; }
+[[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
 [[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
@@ -66,8 +69,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {m.v ? a.v : 0.0f}; }
 [[nodiscard]] inline bool any(Mask m) noexcept { return m.v; }
 [[nodiscard]] inline bool every(Mask m) noexcept { return m.v; }
-/// 1 where m, else zero.
-[[nodiscard]] inline I32 ones(Mask m) noexcept { return {m.v ? 1 : 0}; }
+/// a + 1 where m, else a.
+[[nodiscard]] inline I32 increment(Mask m, I32 a) noexcept { return {a.v + (m.v ? 1 : 0)}; }
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept {
@@ -86,7 +89,6 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {bits_of({a.v + 12582912.0f}).v - 0x4B400000}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept { return {*p}; }
 [[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {value}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {a.v - b.v}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {a.v & b.v}; }
@@ -120,6 +122,21 @@ inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
   b = {p[1]};
   c = {p[2]};
 }
+
+/// Lanes 0 to count - 1; count is 1 or more.
+[[nodiscard]] inline Mask first(std::size_t) noexcept { return {true}; }
+
+/// How store() packs the lanes where a mask is set.
+struct Packing {
+  std::uint32_t count;
+};
+
+[[nodiscard]] inline Packing packing(Mask m) noexcept { return {m.v ? 1u : 0u}; }
+
+/// The lanes where the mask is set, one behind the other; what is written behind them, up to a register's length, means
+/// nothing.
+inline void store(float* p, F32 a, const Packing&) noexcept { *p = a.v; }
+inline void store(std::uint32_t* p, I32 a, const Packing&) noexcept { store(p, a); }
 
 }  // namespace simd
 }  // namespace SHORTSHOT_ISA

@@ -29,8 +29,12 @@ struct Mask {
 [[nodiscard]] inline float root(float value) noexcept { return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(value))); }
 
 [[nodiscard]] inline F32 load(const float* p) noexcept { return {_mm_loadu_ps(p)}; }
+[[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept {
+  return {_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))};
+}
 inline void store(float* p, F32 a) noexcept { _mm_storeu_ps(p, a.v); }
 inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a.v); }
+inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a.v); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {_mm_set1_ps(value)}; }
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm_add_ps(a.v, b.v)}; }
@@ -41,6 +45,7 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm_cmplt_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {_mm_cmpgt_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm_cmpge_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {_mm_cmpneq_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm_and_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {_mm_xor_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm_or_ps(a.v, b.v)}; }
@@ -62,8 +67,8 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {_mm_and_ps(m.v, a.v)}; }
 [[nodiscard]] inline bool any(Mask m) noexcept { return _mm_movemask_ps(m.v) != 0; }
 [[nodiscard]] inline bool every(Mask m) noexcept { return _mm_movemask_ps(m.v) == 0xF; }
-/// 1 where m, else zero.
-[[nodiscard]] inline I32 ones(Mask m) noexcept { return {_mm_srli_epi32(_mm_castps_si128(m.v), 31)}; }
+/// a + 1 where m, else a.
+[[nodiscard]] inline I32 increment(Mask m, I32 a) noexcept { return {_mm_sub_epi32(a.v, _mm_castps_si128(m.v))}; }
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {_mm_castps_si128(a.v)}; }
@@ -77,9 +82,6 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm_cvtps_epi32(a.v)}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 load(const std::int32_t* p) noexcept {
-  return {_mm_loadu_si128(reinterpret_cast<const __m128i*>(p))};
-}
 [[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {_mm_set1_epi32(value)}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {_mm_sub_epi32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {_mm_and_si128(a.v, b.v)}; }
@@ -126,6 +128,38 @@ inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpre
   a = {_mm_shuffle_ps(ab[0], ab[1], _MM_SHUFFLE(2, 0, 2, 0))};
   b = {_mm_shuffle_ps(bc[0], bc[1], _MM_SHUFFLE(2, 0, 2, 0))};
   c = {_mm_shuffle_ps(bc[0], bc[1], _MM_SHUFFLE(3, 1, 3, 1))};
+}
+
+/// Lanes 0 to count - 1; count is 1 or more.
+[[nodiscard]] inline Mask first(std::size_t count) noexcept {
+  const __m128i limit = _mm_set1_epi32(static_cast<int>(count));
+  return {_mm_castsi128_ps(_mm_cmplt_epi32(_mm_setr_epi32(0, 1, 2, 3), limit))};
+}
+
+/// How store() packs the lanes where a mask is set: each half of the register is packed by itself, and the second half
+/// is stored behind what the first one keeps.
+struct Packing {
+  __m128 second_only;  // in the lane that receives it: of a pair of lanes, the first is dropped
+  std::uint32_t first_half;
+  std::uint32_t count;
+};
+
+[[nodiscard]] inline Packing packing(Mask m) noexcept {
+  const auto bits = static_cast<std::uint32_t>(_mm_movemask_ps(m.v));
+  const std::uint32_t pairs = bits - (bits >> 1 & 5u);  // two counts of two bits each
+  return {m.v, pairs & 3u, (pairs & 3u) + (pairs >> 2)};
+}
+
+/// The lanes where the mask is set, one behind the other; what is written behind them, up to a register's length, means
+/// nothing.
+inline void store(float* p, F32 a, const Packing& packing) noexcept {
+  const __m128 second = _mm_shuffle_ps(a.v, a.v, _MM_SHUFFLE(3, 3, 1, 1));
+  const __m128 packed = _mm_xor_ps(second, _mm_and_ps(packing.second_only, _mm_xor_ps(second, a.v)));
+  _mm_storel_pi(reinterpret_cast<__m64*>(p), packed);
+  _mm_storeh_pi(reinterpret_cast<__m64*>(p + packing.first_half), packed);
+}
+inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
+  store(reinterpret_cast<float*>(p), {_mm_castsi128_ps(a.v)}, packing);
 }
 
 }  // namespace simd

@@ -28,6 +28,7 @@ inline void rotate(float (&a)[3][3], float (&v)[3][3], int p, int q) noexcept {
   if (a[p][q] == 0.0f) return;
   const float theta = (a[q][q] - a[p][p]) / (2.0f * a[p][q]);
   const float magnitude = theta < 0.0f ? -theta : theta;
+  if (magnitude > 1e18f) return;  // turns by less than any component's last bit; half of all rotations, at the end
   // tan of the rotation angle; theta squared would overflow where the angle is below float resolution anyway.
   const float tangent =
       magnitude > 1e9f ? 0.5f / magnitude : 1.0f / (magnitude + simd::root(magnitude * magnitude + 1.0f));

@@ -1,4 +1,4 @@
-// The local reference frame: SHOT's rules, its refusals, and the two pieces it is made of.
+// The local reference frame: SHOT's rules, and its refusals.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -112,21 +112,6 @@ TEST_CASE("frame: equal distances in a tied vote are ordered by index, whatever 
     CHECK(frame.x[0] == (x_votes >= 3 ? 1.0f : -1.0f));
     CHECK(frame.z[2] == (z_votes >= 3 ? 1.0f : -1.0f));
   }
-}
-
-TEST_CASE("frame: a neighbour in an axis' normal plane counts as in favour, the key point's copies do not") {
-  TestCloud cloud;
-  cloud.add(0.1f, 0.0f, 0.0f);
-  cloud.add(-0.1f, 0.0f, 0.0f);
-  cloud.add(0.0f, 0.1f, 0.0f);
-  cloud.add(0.0f, 0.0f, -0.1f);
-  cloud.add(origin);
-  Room room(cloud.size());
-  ss::Neighborhood n = room.neighborhood();
-  REQUIRE(ss::BruteSearch{cloud.view()}.gather(origin, 1.0f, n) == Status::ok);
-  CHECK(ss::detail::votes_for(n, 1.0f, {1.0f, 0.0f, 0.0f}) == 3);
-  CHECK(ss::detail::votes_for(n, 1.0f, {-1.0f, 0.0f, 0.0f}) == 3);
-  CHECK(ss::detail::votes_for(n, 1.0f, {0.0f, -1.0f, 0.0f}) == 3);
 }
 
 TEST_CASE("frame: a viewpoint turns z towards the camera and leaves x to the vote") {
@@ -248,31 +233,6 @@ TEST_CASE("frame: check() accepts rotations and refuses everything else") {
       ss::Frame frame = unit;
       (k < 3 ? frame.x : k < 6 ? frame.y : frame.z)[k % 3] = bad;
       CHECK(ss::check(frame) == Status::bad_frame);
-    }
-  }
-}
-
-TEST_CASE("ranking: the member of each rank is the one that sorting finds, ties and all") {
-  Random random(8);
-  for (int round = 0; round < 40; ++round) {
-    TestCloud cloud;
-    for (int k = 0; k < 60; ++k) {  // a coarse lattice: many equal distances, copies of the key point, some outside
-      cloud.add(random.dyadic(-1.0f, 1.0f, 2), random.dyadic(-1.0f, 1.0f, 2), random.dyadic(-1.0f, 1.0f, 1));
-    }
-    Room room(cloud.size());
-    ss::Neighborhood n = room.neighborhood();
-    const ss::GridSearch grid(cloud.view(), 0.3f);  // not in the order of indices
-    REQUIRE(grid.gather(origin, 2.0f, n) == Status::ok);
-    const ss::Radius radius(1.0f);
-    std::vector<std::uint32_t> order;
-    for (std::uint32_t i = 0; i < n.size; ++i) {
-      if (n.d2[i] > 0.0f && n.d2[i] < 1.0f) order.push_back(i);
-    }
-    std::sort(order.begin(), order.end(), [&n](std::uint32_t a, std::uint32_t b) {
-      return n.d2[a] != n.d2[b] ? n.d2[a] < n.d2[b] : n.index[a] < n.index[b];
-    });
-    for (std::size_t rank = 0; rank < order.size(); ++rank) {
-      CHECK(ss::detail::member_of_rank(n, radius, static_cast<int>(rank)) == order[rank]);
     }
   }
 }

@@ -4,55 +4,15 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "fixtures.hpp"
+#include "searches.hpp"
 
 namespace {
 
 using namespace unit;
 using ss::Status;
-
-/// A GridIndex with its memory behind it, and a guard after the last cell.
-template <class Index>
-struct OwnedGrid {
-  OwnedGrid(const TestCloud& cloud, float cell_size, std::size_t cells, bool copy_points = true)
-      : order(cloud.size()), cell_end(cells + 1, Index{0xABCD}), xyz(3 * cloud.size()) {
-    status = index.build(cloud.view(), cell_size,
-                         {order.data(), cell_end.data(), copy_points ? xyz.data() : nullptr, cloud.size(), cells});
-  }
-  [[nodiscard]] bool guard_intact() const { return cell_end.back() == Index{0xABCD}; }
-
-  std::vector<Index> order, cell_end;
-  std::vector<float> xyz;
-  ss::GridIndex<Index> index{};
-  Status status;
-};
-
-/// Points of the cloud, places between them, just outside of its box and far away.
-std::vector<ss::Point> places_to_ask(const TestCloud& cloud, std::uint32_t seed, float radius) {
-  Random random(seed);
-  std::vector<ss::Point> places{{1e5f, -1e5f, 1e5f}, {1e30f, 0.0f, 0.0f}};
-  for (int k = 0; k < 25; ++k) {
-    const ss::Point p = cloud.at(random.below(cloud.size()));
-    if (!ss::is_finite(p)) continue;
-    places.push_back(p);
-    places.push_back(
-        {p.x + random.between(-radius, radius), p.y + random.between(-radius, radius), p.z + 0.9f * radius});
-  }
-  return places;
-}
-
-template <class Search>
-void require_brute(const Search& search, const TestCloud& cloud, const std::vector<ss::Point>& places, float radius) {
-  Room room(cloud.size());
-  const ss::BruteSearch brute{cloud.view()};
-  for (const ss::Point& place : places) {
-    CAPTURE(place.x);
-    REQUIRE(found_by(search, place, radius, room) == found_by(brute, place, radius, room));
-  }
-}
 
 /// All searches that need no image, with ample and with tiny memory, and cells much smaller and larger than the radius.
 void check_all_searches(const TestCloud& cloud, float radius) {
@@ -77,14 +37,6 @@ void check_all_searches(const TestCloud& cloud, float radius) {
   for (const std::size_t leaf : {1u, 10u, 500u}) {
     CAPTURE(leaf);
     require_brute(ss::NanoflannSearch(cloud.view(), leaf), cloud, places, radius);
-  }
-}
-
-void add_points(TestCloud& cloud, Random& random, std::size_t count, float low, float high) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const float x = random.between(low, high);
-    const float y = random.between(low, high);
-    cloud.add(x, y, random.between(low, high));
   }
 }
 
@@ -186,77 +138,6 @@ TEST_CASE("search: Radius::from_double squares in double, as PCL does") {
   CHECK(wide.value == narrow.value);
   CHECK(wide.squared == static_cast<float>(0.1 * 0.1));
   CHECK(wide.squared != narrow.squared);
-}
-
-TEST_CASE("search: an index of 16 bits counts to 65,535 points and refuses more") {
-  TestCloud cloud;
-  for (int i = 0; i < 65535; ++i) {
-    cloud.add(static_cast<float>(i % 256), static_cast<float>(i / 256), static_cast<float>(i % 7));
-  }
-  const OwnedGrid<std::uint16_t> full(cloud, 4.0f, 5000);
-  REQUIRE(full.status == Status::ok);
-  CHECK(full.index.size() == 65535);
-  const auto search = std::make_unique<ss::StaticGrid<65535, 4096>>();
-  REQUIRE(search->build(cloud.view(), 4.0f) == Status::ok);
-  const std::vector<ss::Point> places{cloud.at(0), cloud.at(40000), cloud.at(65534)};
-  require_brute(full.index, cloud, places, 4.0f);
-  require_brute(*search, cloud, places, 4.0f);
-
-  cloud.add(0.0f, 0.0f, 0.0f);
-  CHECK(OwnedGrid<std::uint16_t>(cloud, 4.0f, 5000).status == Status::out_of_memory);
-}
-
-TEST_CASE("search: an index of 16 bits never mistakes a point beyond 65,535 for another") {
-  // Few points are valid, but their places in the cloud need more than 16 bits: refuse, or find the right ones.
-  TestCloud cloud;
-  for (int i = 0; i < 70000; ++i) cloud.add(not_a_number, not_a_number, not_a_number);
-  for (int i = 0; i < 100; ++i) cloud.add(0.01f * static_cast<float>(i), 0.0f, 0.0f);
-  for (const bool copy_points : {false, true}) {
-    CAPTURE(copy_points);
-    const OwnedGrid<std::uint16_t> grid(cloud, 0.1f, 100, copy_points);
-    if (grid.status != Status::ok) {
-      CHECK(grid.status == Status::out_of_memory);
-      continue;
-    }
-    Room room(200);
-    const ss::BruteSearch brute{cloud.view()};
-    CHECK(found_by(grid.index, cloud.at(70050), 0.1f, room) == found_by(brute, cloud.at(70050), 0.1f, room));
-  }
-}
-
-TEST_CASE("search: a grid writes no cell beyond its capacity, even where floats cannot count the cells") {
-  // 4097 * 4097 = 2^24 + 8193 is odd and rounds down to the capacity.
-  TestCloud cloud;
-  cloud.add(0.0f, 0.0f, 0.0f);
-  cloud.add(4096.0f, 4096.0f, 0.0f);
-  const OwnedGrid<std::uint32_t> grid(cloud, 1.0f, 4097u * 4097u - 1u);
-  REQUIRE(grid.status == Status::ok);
-  CHECK(grid.guard_intact());
-}
-
-TEST_CASE("search: a grid without room for the points, or without a cell, is out of memory and finds nothing") {
-  const TestCloud cloud = blob(9, 50);
-  std::vector<std::uint32_t> order(50), cells(64);
-  ss::GridIndex<> grid{};
-  CHECK(grid.build(cloud.view(), 0.1f, {order.data(), cells.data(), nullptr, 49, 64}) == Status::out_of_memory);
-  CHECK(grid.build(cloud.view(), 0.1f, {order.data(), cells.data(), nullptr, 50, 0}) == Status::out_of_memory);
-  CHECK(refuses(grid, cloud.at(0), 0.1f, Status::out_of_memory));
-  CHECK(refuses(ss::GridIndex<>{}, cloud.at(0), 0.1f, Status::empty_cloud));
-  CHECK(refuses(ss::GridSearch(cloud.view(), -1.0f), cloud.at(0), 0.1f, Status::bad_radius));
-  CHECK(refuses(ss::NanoflannSearch(ss::CloudView{}), cloud.at(0), 0.1f, Status::empty_cloud));
-  CHECK(refuses(ss::BruteSearch{ss::view_xyz(nullptr, 5)}, cloud.at(0), 0.1f, Status::bad_view));
-  Room room(50);
-  CHECK(grid.build(cloud.view(), 0.1f, {order.data(), cells.data(), nullptr, 50, 64}) == Status::ok);
-  CHECK(!found_by(grid, cloud.at(0), 0.1f, room).empty());
-}
-
-TEST_CASE("search: a grid can be built again for the next cloud, larger or smaller") {
-  ss::GridSearch grid;
-  for (const std::size_t points : {300u, 900u, 20u, 600u}) {
-    const TestCloud cloud = blob(static_cast<std::uint32_t>(points), points);
-    REQUIRE(grid.build(cloud.view(), 0.05f) == Status::ok);
-    require_brute(grid, cloud, places_to_ask(cloud, 1, 0.05f), 0.05f);
-  }
 }
 
 TEST_CASE("search: a full workspace is reported with the exact number of neighbours, by every search") {

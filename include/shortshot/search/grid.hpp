@@ -12,6 +12,7 @@
 #include "../simd.hpp"
 #include "../status.hpp"
 #include "grid_box.hpp"
+#include "offer_run.hpp"
 
 namespace shortshot {
 
@@ -47,10 +48,46 @@ class Grid {
   using Contents = GridContents<Index>;
 
   [[nodiscard]] Status build(const CloudView& cloud, float cell_size, const Memory& memory) noexcept {
+    const Status status = plan(cloud, cell_size, memory);
+    if (status == Status::ok) sort(memory);
+    return status;
+  }
+
+  /// The first half of build(): settles the box of cells. Of the memory only cell_end is touched.
+  [[nodiscard]] Status plan(const CloudView& cloud, float cell_size, const Memory& memory) noexcept {
     *this = Grid{};
     cloud_ = cloud;
-    status_ = index_points(cell_size, memory);
+    status_ = fit(cell_size, memory);
     return status_;
+  }
+
+  /// Between the halves: eight cells for each one.
+  void halve_cells() noexcept { box_.halve_cells(); }
+
+  /// The second half, a counting sort: count per cell, turn counts into ends of the cells before, and let each placed
+  /// point move its cell's end forward to where it belongs.
+  void sort(const Memory& memory) const noexcept {
+    const GridBox box = box_;  // copies that no store can change stay in registers
+    const Memory to = memory;
+    const std::size_t cells = box.cells();
+    for (std::size_t c = 0; c < cells; ++c) to.cell_end[c] = 0;
+    for_each_valid(cloud_, [&](std::size_t, const Point& p) { ++to.cell_end[box.cell_of(p)]; });
+    Index begin = 0;
+    for (std::size_t c = 0; c < cells; ++c) {
+      const Index count = to.cell_end[c];
+      to.cell_end[c] = begin;
+      begin = static_cast<Index>(begin + count);
+    }
+    float* const x = to.xyz;
+    const std::size_t n = points_;
+    for_each_valid(cloud_, [&](std::size_t index, const Point& p) {
+      const std::size_t place = to.cell_end[box.cell_of(p)]++;
+      to.order[place] = static_cast<Index>(index);
+      if (x == nullptr) return;
+      x[place] = p.x;
+      x[n + place] = p.y;
+      x[2 * n + place] = p.z;
+    });
   }
 
   [[nodiscard]] Status status() const noexcept {
@@ -58,27 +95,36 @@ class Grid {
   }
   [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_.size; }
   [[nodiscard]] std::size_t size() const noexcept { return points_; }
+  [[nodiscard]] std::size_t cells() const noexcept { return box_.cells(); }
 
   [[nodiscard]] Status gather(const Contents& contents, const Point& center, Radius radius,
                               Neighborhood& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
-    // The margin covers the rounding of d2: a point inside by d2 is never outside by one coordinate.
-    const float reach = radius.value * 1.000001f;
-    const CellRange x = box_.range(0, center.x, reach);
+    if (!is_finite(center)) return Status::ok;
+    Neighborhood found = out;
+    // The margin covers the rounding of d2, of the gaps and of the chord: each row gets all cells it needs.
+    const float reach = radius.value * 1.000002f;
     const CellRange y = box_.range(1, center.y, reach);
     const CellRange z = box_.range(2, center.z, reach);
     for (std::uint32_t cz = z.first; cz <= z.last; ++cz) {
+      const float gap_z = box_.gap(2, center.z, cz);
       for (std::uint32_t cy = y.first; cy <= y.last; ++cy) {
+        const float gap_y = box_.gap(1, center.y, cy);
+        // Half the chord that the sphere can have in common with this row of cells, squared.
+        const float chord2 = (reach * reach - gap_y * gap_y) - gap_z * gap_z;
+        if (!(chord2 >= 0.0f)) continue;
+        const CellRange x = box_.range(0, center.x, simd::root(chord2));
         const std::size_t row = box_.row(cy, cz);
-        offer_run(contents, begin_of(contents, row + x.first), contents.cell_end[row + x.last], center, radius, out);
+        offer_cells(contents, row + x.first, row + x.last, center, radius.squared, found);
       }
     }
+    out = found;
     return outcome(out);
   }
 
  private:
-  [[nodiscard]] Status index_points(float cell_size, const Memory& memory) noexcept {
+  [[nodiscard]] Status fit(float cell_size, const Memory& memory) noexcept {
     const Status usable = check(cloud_);
     if (usable != Status::ok) return usable;
     if (check(Radius(cell_size)) != Status::ok) return Status::bad_radius;
@@ -92,7 +138,6 @@ class Grid {
 
     box_ = fit_box(cloud_, extent, valid, cell_size, memory.cell_end, memory.cell_capacity);
     points_ = valid;
-    sort(memory);
     return Status::ok;
   }
 
@@ -101,42 +146,19 @@ class Grid {
     return cell == 0 ? 0 : contents.cell_end[cell - 1];
   }
 
-  void offer_run(const Contents& contents, std::size_t begin, std::size_t end, const Point& center, Radius radius,
-                 Neighborhood& out) const noexcept {
-    std::size_t i = begin;
-    if (contents.xyz == nullptr) {
-      for (; i < end; ++i) offer(out, point(cloud_, contents.order[i]), contents.order[i], center, radius.squared);
+  /// Cells that follow each other are one run of points.
+  void offer_cells(const Contents& contents, std::size_t first, std::size_t last, const Point& center,
+                   float radius_squared, Neighborhood& out) const noexcept {
+    const std::size_t begin = begin_of(contents, first);
+    const std::size_t end = contents.cell_end[last];
+    if (contents.xyz != nullptr) {
+      if (begin < end)
+        offer_run<Index>({contents.xyz, contents.order, points_}, begin, end, center, radius_squared, out);
       return;
     }
-    const float* x = contents.xyz;
-    const float* y = x + points_;
-    const float* z = y + points_;
-    for (; i + simd::lanes <= end; i += simd::lanes) {
-      offer_lanes(out, x + i, y + i, z + i, contents.order + i, center, radius.squared);
+    for (std::size_t i = begin; i < end; ++i) {
+      offer(out, point(cloud_, contents.order[i]), contents.order[i], center, radius_squared);
     }
-    for (; i < end; ++i) offer(out, {x[i], y[i], z[i]}, contents.order[i], center, radius.squared);
-  }
-
-  /// Counting sort: count per cell, turn counts into ends of the cells before, and let each placed point move its
-  /// cell's end forward to where it belongs.
-  void sort(const Memory& memory) noexcept {
-    const std::size_t cells = box_.cells();
-    for (std::size_t c = 0; c < cells; ++c) memory.cell_end[c] = 0;
-    for_each_valid(cloud_, [&](std::size_t, const Point& p) { ++memory.cell_end[box_.cell_of(p)]; });
-    Index begin = 0;
-    for (std::size_t c = 0; c < cells; ++c) {
-      const Index count = memory.cell_end[c];
-      memory.cell_end[c] = begin;
-      begin = static_cast<Index>(begin + count);
-    }
-    for_each_valid(cloud_, [&](std::size_t index, const Point& p) {
-      const std::size_t place = memory.cell_end[box_.cell_of(p)]++;
-      memory.order[place] = static_cast<Index>(index);
-      if (memory.xyz == nullptr) return;
-      memory.xyz[place] = p.x;
-      memory.xyz[points_ + place] = p.y;
-      memory.xyz[2 * points_ + place] = p.z;
-    });
   }
 
   CloudView cloud_;
@@ -157,9 +179,9 @@ class GridIndex {
 
  public:
   /// Sort the cloud's valid points into cells of `cell_size` metres; best close to the search radius, or half of it for
-  /// a thousand neighbours and more. Where the cells would not fit the memory (clouds of huge extent, far outliers) the
-  /// outliers are put into the outermost cells and, if that is not enough, cells become larger: any cell size gives
-  /// the same neighbours, only slower.
+  /// several hundred neighbours and more. Where the cells would not fit the memory (clouds of huge extent, far
+  /// outliers) the outliers are put into the outermost cells and, if that is not enough, cells become larger: any cell
+  /// size gives the same neighbours, only slower.
   ///
   /// Statuses: empty_cloud, bad_view, bad_radius (the cell size), out_of_memory (more valid points than
   /// point_capacity, points with indices beyond Index, or no cell). O(points + cells); allocates nothing.

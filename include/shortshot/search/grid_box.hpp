@@ -6,6 +6,7 @@
 
 #include "../cloud.hpp"
 #include "../config.hpp"
+#include "../unroll.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -20,14 +21,17 @@ struct Extent {
 /// Extent of the valid points; returns how many there are.
 [[nodiscard]] inline std::size_t measure(const CloudView& cloud, Extent& extent) noexcept {
   std::size_t valid = 0;
+  constexpr float most = 3.402823466e38f;
+  Extent e{{most, most, most}, {-most, -most, -most}};  // a local: it stays in registers
   for_each_valid(cloud, [&](std::size_t, const Point& p) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
+    unroll<3>([&](auto axis) {
       const float v = coordinate(p, axis);
-      if (valid == 0 || v < extent.low[axis]) extent.low[axis] = v;
-      if (valid == 0 || v > extent.high[axis]) extent.high[axis] = v;
-    }
+      e.low[axis] = v < e.low[axis] ? v : e.low[axis];
+      e.high[axis] = v > e.high[axis] ? v : e.high[axis];
+    });
     ++valid;
   });
+  extent = e;
   return valid;
 }
 
@@ -41,18 +45,30 @@ struct CellRange {
 /// a range of coordinates always maps to a range of cells, and no box is too small to be right.
 struct GridBox {
   float low[3];
+  float rounding[3];  ///< more than rounding can move a cell's edge, in metres
+  float cell_size;
   float cells_per_metre;
+  float last[3];  ///< dims - 1
   std::uint32_t dims[3];
 
   [[nodiscard]] std::uint32_t cell(int axis, float v) const noexcept {
     const float position = (v - low[axis]) * cells_per_metre;
-    if (!(position > 0.0f)) return 0;
-    const std::uint32_t last = dims[axis] - 1;
-    return position < static_cast<float>(last) ? static_cast<std::uint32_t>(position) : last;
+    const float inside = position > 0.0f ? position : 0.0f;  // NaN, too
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(inside < last[axis] ? inside : last[axis]));
   }
 
   [[nodiscard]] CellRange range(int axis, float center, float reach) const noexcept {
     return {cell(axis, center - reach), cell(axis, center + reach)};
+  }
+
+  /// How far `v` is at least from the points of a cell; 0 in its own cell. Outermost cells have no outer edge, but it
+  /// is always the edge towards v that counts.
+  [[nodiscard]] float gap(int axis, float v, std::uint32_t other) const noexcept {
+    const std::uint32_t own = cell(axis, v);
+    if (other == own) return 0.0f;
+    const float near_edge = low[axis] + static_cast<float>(other < own ? other + 1 : other) * cell_size;
+    const float distance = (other < own ? v - near_edge : near_edge - v) - rounding[axis];
+    return distance > 0.0f ? distance : 0.0f;
   }
 
   [[nodiscard]] std::size_t row(std::uint32_t y, std::uint32_t z) const noexcept {
@@ -61,6 +77,16 @@ struct GridBox {
 
   [[nodiscard]] std::size_t cell_of(const Point& p) const noexcept {
     return row(cell(1, p.y), cell(2, p.z)) + cell(0, p.x);
+  }
+
+  /// Cells of half the size, over the same box.
+  void halve_cells() noexcept {
+    cell_size *= 0.5f;
+    cells_per_metre *= 2.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+      dims[axis] *= 2;
+      last[axis] = static_cast<float>(dims[axis] - 1);
+    }
   }
 
   [[nodiscard]] std::size_t cells() const noexcept { return static_cast<std::size_t>(dims[0]) * dims[1] * dims[2]; }
@@ -72,7 +98,7 @@ struct GridBox {
   std::size_t room = capacity < 0x7FFFFFFFu ? capacity : 0x7FFFFFFFu;
   for (int axis = 0; axis < 3; ++axis) {
     const float cells = (extent.high[axis] - extent.low[axis]) / cell_size + 1.0f;
-    if (!(cells < 2147483648.0f)) return false;
+    if (!(cells < 8388608.0f)) return false;  // float counts them exactly, and twice as many
     dims[axis] = static_cast<std::uint32_t>(cells);
     room /= dims[axis];
     if (room == 0) return false;
@@ -125,10 +151,16 @@ template <class Index>
     fits = count_cells(extent, cell_size, capacity, box.dims);
   }
 
+  box.cell_size = cell_size;
   box.cells_per_metre = 1.0f / cell_size;
   for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] = extent.low[axis];
+    const float low = extent.low[axis];
+    const float high = extent.high[axis];
+    box.low[axis] = low;
+    // A dozen roundings of numbers as large as the coordinates.
+    box.rounding[axis] = 1e-6f * ((low < 0.0f ? 0.0f - low : low) + (high < 0.0f ? 0.0f - high : high));
     if (!fits) box.dims[axis] = 1;  // an extent of all of float's range
+    box.last[axis] = static_cast<float>(box.dims[axis] - 1);
   }
   return box;
 }

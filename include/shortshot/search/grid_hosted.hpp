@@ -14,26 +14,39 @@
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
-/// A fixed-radius grid that owns its memory: 16 bytes a point and 4 a cell, with at most four cells a point (and 4,096)
-/// whatever the cloud's extent. A search (see brute.hpp); the cloud must outlive it. build() again for the next frame:
-/// its memory is reused. Queries are thread-safe.
+/// A fixed-radius grid that owns its memory: 16 bytes a valid point and 4 a cell, with as many cells as the cloud's box
+/// holds, but at most four a point (and 4,096). A search (see brute.hpp); the cloud must outlive it. build() again for
+/// the next frame: its memory is reused. Queries are thread-safe.
 class GridSearch {
  public:
   GridSearch() = default;
 
-  /// Sorts the cloud into cells of `radius`. If that fails status() says why, and so do extract() and describe_at().
+  /// Sorts the cloud into cells of `radius`, or of half of it where points are dense. If that fails status() says why,
+  /// and so do extract() and describe_at().
   GridSearch(const CloudView& cloud, float radius) { static_cast<void>(build(cloud, radius)); }
 
   /// See GridIndex::build(); may throw std::bad_alloc.
   [[nodiscard]] Status build(const CloudView& cloud, float radius) {
     const std::size_t points = check(cloud) == Status::ok ? cloud.size : 0;  // a bad view says anything of its size
     const std::size_t cells = 4 * points + 4096;
-    if (order_.size() < points) {
-      order_.resize(points);
-      xyz_.resize(3 * points);
+    if (cell_end_.size() < planning_cells) cell_end_.resize(planning_cells);
+    grid_ = {};  // and so it stays if there is no memory
+    detail::Grid<std::uint32_t> next{};
+    if (next.plan(cloud, radius, {nullptr, cell_end_.data(), nullptr, points, cells}) != Status::ok) {
+      grid_ = next;
+      return next.status();
     }
-    if (cell_end_.size() < cells) cell_end_.resize(cells);
-    return grid_.build(cloud, radius, {order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cells});
+    // Points lie on surfaces, which pass through few cells of their box: 8 points a cell of the box mean hundreds in
+    // those that are not empty, and then smaller cells, fewer of whose points lie outside the sphere, pay.
+    if (8 * next.cells() <= next.size()) next.halve_cells();
+    if (order_.size() < next.size()) {
+      order_.resize(next.size());
+      xyz_.resize(3 * next.size());
+    }
+    if (cell_end_.size() < next.cells()) cell_end_.resize(next.cells());
+    next.sort({order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cell_end_.size()});
+    grid_ = next;
+    return Status::ok;
   }
 
   [[nodiscard]] Status status() const noexcept { return grid_.status(); }
@@ -44,6 +57,8 @@ class GridSearch {
   }
 
  private:
+  static constexpr std::size_t planning_cells = 64;
+
   detail::Grid<std::uint32_t> grid_{};
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> cell_end_;

@@ -1,0 +1,79 @@
+// The lane shim: what the passes rely on, for every mask.
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fixtures.hpp"
+
+namespace {
+
+using namespace unit;
+namespace simd = ss::simd;
+
+constexpr std::size_t lanes = simd::lanes;
+
+/// The lanes of `set`, one bit each.
+simd::Mask mask_of(std::uint32_t set) {
+  float values[lanes];
+  for (std::size_t k = 0; k < lanes; ++k) values[k] = (set >> k & 1u) != 0 ? 1.0f : 0.0f;
+  return simd::load(values) > simd::all(0.0f);
+}
+
+std::uint32_t set_of(simd::Mask mask) {
+  float values[lanes];
+  simd::store(values, simd::keep(mask, simd::all(1.0f)));
+  std::uint32_t set = 0;
+  for (std::size_t k = 0; k < lanes; ++k) set |= values[k] == 1.0f ? 1u << k : 0u;
+  return set;
+}
+
+}  // namespace
+
+TEST_CASE("simd: store() packs the lanes of every mask, in order, and writes no more than a register") {
+  float values[lanes];
+  std::uint32_t indices[lanes];
+  for (std::size_t k = 0; k < lanes; ++k) {
+    values[k] = k == 0 ? not_a_number : -1.5f - static_cast<float>(k);  // bits are moved, whatever they mean
+    indices[k] = 0xFFFFFF00u + static_cast<std::uint32_t>(k);
+  }
+  for (std::uint32_t set = 0; set < 1u << lanes; ++set) {
+    CAPTURE(set);
+    const simd::Packing packing = simd::packing(mask_of(set));
+    std::vector<float> floats(lanes + 1, 7.0f);
+    std::vector<std::uint32_t> integers(lanes + 1, 7u);
+    simd::store(floats.data(), simd::load(values), packing);
+    simd::store(integers.data(), simd::load(indices), packing);
+    std::uint32_t count = 0;
+    for (std::size_t k = 0; k < lanes; ++k) {
+      if ((set >> k & 1u) == 0) continue;
+      CHECK(std::memcmp(&floats[count], &values[k], sizeof(float)) == 0);
+      CHECK(integers[count] == indices[k]);
+      ++count;
+    }
+    CHECK(packing.count == count);
+    CHECK(floats.back() == 7.0f);
+    CHECK(integers.back() == 7u);
+  }
+}
+
+TEST_CASE("simd: first() and increment() count lanes") {
+  for (std::size_t count = 1; count <= lanes; ++count) CHECK(set_of(simd::first(count)) == (1u << count) - 1u);
+  for (std::uint32_t set = 0; set < 1u << lanes; ++set) {
+    std::uint32_t after[lanes];
+    const std::vector<std::uint32_t> before(lanes, 41u);
+    simd::store(after, simd::increment(mask_of(set), simd::load(before.data())));
+    for (std::size_t k = 0; k < lanes; ++k) CHECK(after[k] == 41u + (set >> k & 1u));
+  }
+}
+
+TEST_CASE("simd: numbers differ, zeros do not, and NaN differs from itself") {
+  const float tiny = 1e-45f;
+  const auto differ = [](float a, float b) { return any(simd::all(a) != simd::all(b)); };
+  CHECK(differ(tiny, 0.0f));
+  CHECK(differ(-1.0f, 1.0f));
+  CHECK(!differ(-0.0f, 0.0f));
+  CHECK(!differ(tiny, tiny));
+  CHECK(differ(not_a_number, not_a_number));
+}
