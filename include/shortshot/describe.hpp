@@ -100,20 +100,20 @@ struct ChunkVotes {
   std::int32_t weight[Count * chunk_size];
 };
 
-/// Neighbours that follow each other lie in the same cells, and each addition would wait for the one before: in a full
-/// chunk, four from different places are taken in turn.
+/// Neighbours from the four stretches of a chunk are taken in turn.
 template <int Count>
 inline void scatter(const ChunkVotes<Count>& votes, std::uint32_t size, float* part) noexcept {
   const auto add = [&](std::uint32_t i) {
     unroll<Count>([&](auto k) { add_bits(part + votes.index[k * chunk_size + i], votes.weight[k * chunk_size + i]); });
   };
-  std::uint32_t done = 0;
-  if (size == chunk_size) {
-    constexpr std::uint32_t quarter = chunk_size / 4;
-    for (std::uint32_t i = 0; i < quarter; ++i) unroll<4>([&](auto k) { add(i + k * quarter); });
-    done = size;
+  constexpr std::uint32_t quarter = chunk_size / 4;
+  std::uint32_t i = 0;
+  if (size >= 3 * quarter) {
+    for (; i < size - 3 * quarter; ++i) unroll<4>([&](auto k) { add(i + k * quarter); });
   }
-  for (std::uint32_t i = done; i < size; ++i) add(i);
+  for (; i < quarter; ++i) {
+    for (std::uint32_t k = i; k < size; k += quarter) add(k);
+  }
 }
 
 /// One chunk into one part. Votes go through memory: taken out of registers lane by lane they would cost twice as much.
@@ -201,8 +201,8 @@ template <class D, class Colors>
 
   const VoteUnit unit = detail::vote_unit<D::position_bits>(n.size);
   detail::Chunk chunk;
-  for (std::uint32_t first = 0; first < n.size; first += detail::chunk_size) {
-    detail::locate<D::shell_borders>(n, first, frame, radius, chunk);
+  for (std::uint32_t i = 0; i * detail::chunk_size < n.size; ++i) {
+    detail::locate<D::shell_borders>(n, detail::stretches_of_chunk(i, n.size), frame, radius, chunk);
     detail::accumulate_all(D{}, chunk, colors, unit, out);
   }
   return detail::normalize<D::size>(out);

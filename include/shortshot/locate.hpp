@@ -76,42 +76,63 @@ template <int Borders>
   return distance;
 }
 
-/// Neighbours from `first` on into a chunk.
+/// The neighbours of one chunk: four stretches of the neighbourhood, `stride` apart, of a quarter chunk each.
+/// Neighbours that follow each other lie in the same cells, where each addition would wait for the one before; a chunk
+/// from four places has others to add in between. (Sums do not depend on the order.) The last chunk has what is left,
+/// in one stretch.
+struct Stretches {
+  std::uint32_t first;
+  std::uint32_t stride;
+  std::uint32_t count;
+  std::uint32_t length;
+};
+
+[[nodiscard]] inline Stretches stretches_of_chunk(std::uint32_t chunk, std::uint32_t neighbors) noexcept {
+  constexpr std::uint32_t quarter = chunk_size / 4;
+  const std::uint32_t full_chunks = neighbors / chunk_size;
+  if (chunk < full_chunks) return {chunk * quarter, full_chunks * quarter, 4, quarter};
+  return {chunk * chunk_size, 0, 1, neighbors - chunk * chunk_size};
+}
+
+/// Neighbours into a chunk.
 template <int Borders>
-inline void locate(const Neighborhood& all, std::uint32_t first, const Frame& frame, Radius radius,
+inline void locate(const Neighborhood& all, const Stretches& stretches, const Frame& frame, Radius radius,
                    Chunk& chunk) noexcept {
   const Neighborhood n = all;  // a local: no store to the chunk can change its pointers
   const AxisLanes x_axis(frame.x);
   const AxisLanes y_axis(frame.y);
   const AxisLanes z_axis(frame.z);
-  const std::uint32_t end = n.size - first < chunk_size ? n.size : first + chunk_size;
   std::uint32_t size = 0;
-  for (std::uint32_t i = first; i < end; i += simd::lanes) {
-    const Offsets v = load_offsets(n, i);
-    const simd::I32 index = load_indices(n, i);
-    const Local local{x_axis.along(v), y_axis.along(v), z_axis.along(v)};
-    const simd::F32 distance = relative_distance<Borders>(v, local, radius);
-    const simd::F32 elevation = math::elevation(simd::sqrt(local.x * local.x + local.y * local.y), local.z);
-    const simd::F32 azimuth = math::azimuth(local.x, local.y);
-    const auto append = [&](const auto&... packing) {
-      simd::store(chunk.index + size, index, packing...);
-      simd::store(chunk.distance + size, distance, packing...);
-      simd::store(chunk.elevation + size, elevation, packing...);
-      simd::store(chunk.azimuth + size, azimuth, packing...);
-    };
-    const simd::Mask described = are_described(v.d2, radius);
-    if (every(described)) {
-      append();
-      size += static_cast<std::uint32_t>(simd::lanes);
-    } else {
-      const simd::Packing packing = simd::packing(described);
-      append(packing);
-      size += packing.count;
+  for (std::uint32_t k = 0; k < stretches.count; ++k) {
+    const std::uint32_t first = stretches.first + k * stretches.stride;
+    const std::uint32_t end = first + stretches.length;
+    for (std::uint32_t i = first; i < end; i += simd::lanes) {
+      const Offsets v = load_offsets(n, i);
+      const simd::I32 index = load_indices(n, i);
+      const Local local{x_axis.along(v), y_axis.along(v), z_axis.along(v)};
+      const simd::F32 distance = relative_distance<Borders>(v, local, radius);
+      const simd::F32 elevation = math::elevation(simd::sqrt(local.x * local.x + local.y * local.y), local.z);
+      const simd::F32 azimuth = math::azimuth(local.x, local.y);
+      const auto append = [&](const auto&... packing) {
+        simd::store(chunk.index + size, index, packing...);
+        simd::store(chunk.distance + size, distance, packing...);
+        simd::store(chunk.elevation + size, elevation, packing...);
+        simd::store(chunk.azimuth + size, azimuth, packing...);
+      };
+      const simd::Mask described = are_described(v.d2, radius);
+      if (every(described)) {
+        append();
+        size += static_cast<std::uint32_t>(simd::lanes);
+      } else {
+        const simd::Packing packing = simd::packing(described);
+        append(packing);
+        size += packing.count;
+      }
     }
   }
   chunk.size = size;
   // What passes read beyond the end must be colours that exist.
-  for (; size % simd::lanes != 0; ++size) chunk.index[size] = n.index[first];
+  for (; size % simd::lanes != 0; ++size) chunk.index[size] = n.index[stretches.first];
 }
 
 }  // namespace detail
