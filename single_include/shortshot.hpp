@@ -1410,6 +1410,17 @@ class PackedLab {
             static_cast<float>(bits_ >> 21) * b_step - 108.875f};
   }
 
+  /// The colours at lab[index[k]], for all lanes: what operator Lab gives.
+  [[nodiscard]] static LabLanes at(const PackedLab* lab, const std::uint32_t* index) noexcept {
+    using simd::all;
+    std::uint32_t packed[simd::lanes];
+    for (std::size_t k = 0; k < simd::lanes; ++k) packed[k] = lab[index[k]].bits_;
+    const simd::I32 bits = simd::load(packed);
+    return {to_float(bits & all(2047)) * all(0.05f),
+            to_float(shift_right(bits, 11) & all(1023)) * all(a_step) - all(90.0f),
+            to_float(shift_right(bits, 21) & all(2047)) * all(b_step) - all(108.875f)};
+  }
+
  private:
   static constexpr float a_step = 0.1875f;     // -90 is -480 steps
   static constexpr float b_step = 0.1015625f;  // -108.875 is -1072 steps
@@ -1475,6 +1486,10 @@ template <class Colors>
   LabLanes lab;
   simd::load_triples(&colors.lab->L, index, lab.L, lab.a, lab.b);
   return lab;
+}
+
+[[nodiscard]] inline LabLanes colors_at(const PackedColors& colors, const std::uint32_t* index) noexcept {
+  return PackedLab::at(colors.lab, index);
 }
 
 namespace detail {
@@ -2498,10 +2513,14 @@ static_assert(chunk_size % simd::lanes == 0, "registers do not reach beyond the 
 /// A chunk of neighbours in the frame's spherical coordinates. Only those that are described: passes need no masks.
 struct Chunk {
   std::uint32_t size;
-  std::uint32_t index[chunk_size];  ///< in the cloud
-  float distance[chunk_size];       ///< over the radius, 0..1
-  float elevation[chunk_size];      ///< angle from +z over pi, 0..1
-  float azimuth[chunk_size];        ///< angle from -x, counter-clockwise, in turns, 0..1
+  std::uint32_t index[chunk_size];    ///< in the cloud
+  float coordinates[3 * chunk_size];  // one array, so that one register holds the place in all
+
+  /// From neighbour `i` on: the distance over the radius, 0..1; the angle from +z over pi, 0..1; and the angle from -x,
+  /// counter-clockwise, in turns, 0..1.
+  [[nodiscard]] const float* distance(std::uint32_t i) const noexcept { return coordinates + i; }
+  [[nodiscard]] const float* elevation(std::uint32_t i) const noexcept { return coordinates + i + chunk_size; }
+  [[nodiscard]] const float* azimuth(std::uint32_t i) const noexcept { return coordinates + i + 2 * chunk_size; }
 };
 
 /// Closest squared distance that is described: the published code skips the key point and its copies by this bound.
@@ -2591,9 +2610,10 @@ inline void locate(const Neighborhood& all, const Stretches& stretches, const Fr
       const simd::F32 azimuth = math::azimuth(local.x, local.y);
       const auto append = [&](const auto&... packing) {
         simd::store(chunk.index + size, index, packing...);
-        simd::store(chunk.distance + size, distance, packing...);
-        simd::store(chunk.elevation + size, elevation, packing...);
-        simd::store(chunk.azimuth + size, azimuth, packing...);
+        float* const coordinates = chunk.coordinates + size;
+        simd::store(coordinates, distance, packing...);
+        simd::store(coordinates + chunk_size, elevation, packing...);
+        simd::store(coordinates + 2 * chunk_size, azimuth, packing...);
       };
       const simd::Mask described = are_described(v.d2, radius);
       if (every(described)) {
@@ -2664,10 +2684,10 @@ template <class Voting, class Part, class Signal>
   using R = typename Part::RadialAxis;
   using E = typename Part::ElevationAxis;
   using A = typename Part::AzimuthAxis;
-  const simd::F32 shells = Part::Scale::template position<R::cells>(simd::load(chunk.distance + i), R::one);
+  const simd::F32 shells = Part::Scale::template position<R::cells>(simd::load(chunk.distance(i)), R::one);
   const Share r = Voting::template split<R>(truncate_to_int(shells), unit);
-  const Share e = Voting::template split<E>(positions<E>(simd::load(chunk.elevation + i)), unit);
-  const Share a = Voting::template split<A>(positions<A>(simd::load(chunk.azimuth + i)), unit);
+  const Share e = Voting::template split<E>(positions<E>(simd::load(chunk.elevation(i))), unit);
+  const Share a = Voting::template split<A>(positions<A>(simd::load(chunk.azimuth(i))), unit);
   if constexpr (Part::has_histogram) {
     using S = typename Part::SignalAxis;
     const Share s = Voting::template split<S>(positions<S>(signal(chunk, i)), unit);

@@ -62,6 +62,10 @@ template <class Colors>
   return lab;
 }
 
+[[nodiscard]] inline LabLanes colors_at(const PackedColors& colors, const std::uint32_t* index) noexcept {
+  return PackedLab::at(colors.lab, index);
+}
+
 namespace detail {
 
 /// Colours [begin, end) of a cloud, each converted by convert(rgb).

@@ -71,10 +71,10 @@ template <class Voting, class Part, class Signal>
   using R = typename Part::RadialAxis;
   using E = typename Part::ElevationAxis;
   using A = typename Part::AzimuthAxis;
-  const simd::F32 shells = Part::Scale::template position<R::cells>(simd::load(chunk.distance + i), R::one);
+  const simd::F32 shells = Part::Scale::template position<R::cells>(simd::load(chunk.distance(i)), R::one);
   const Share r = Voting::template split<R>(truncate_to_int(shells), unit);
-  const Share e = Voting::template split<E>(positions<E>(simd::load(chunk.elevation + i)), unit);
-  const Share a = Voting::template split<A>(positions<A>(simd::load(chunk.azimuth + i)), unit);
+  const Share e = Voting::template split<E>(positions<E>(simd::load(chunk.elevation(i))), unit);
+  const Share a = Voting::template split<A>(positions<A>(simd::load(chunk.azimuth(i))), unit);
   if constexpr (Part::has_histogram) {
     using S = typename Part::SignalAxis;
     const Share s = Voting::template split<S>(positions<S>(signal(chunk, i)), unit);

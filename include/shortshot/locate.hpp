@@ -22,10 +22,14 @@ static_assert(chunk_size % simd::lanes == 0, "registers do not reach beyond the 
 /// A chunk of neighbours in the frame's spherical coordinates. Only those that are described: passes need no masks.
 struct Chunk {
   std::uint32_t size;
-  std::uint32_t index[chunk_size];  ///< in the cloud
-  float distance[chunk_size];       ///< over the radius, 0..1
-  float elevation[chunk_size];      ///< angle from +z over pi, 0..1
-  float azimuth[chunk_size];        ///< angle from -x, counter-clockwise, in turns, 0..1
+  std::uint32_t index[chunk_size];    ///< in the cloud
+  float coordinates[3 * chunk_size];  // one array, so that one register holds the place in all
+
+  /// From neighbour `i` on: the distance over the radius, 0..1; the angle from +z over pi, 0..1; and the angle from -x,
+  /// counter-clockwise, in turns, 0..1.
+  [[nodiscard]] const float* distance(std::uint32_t i) const noexcept { return coordinates + i; }
+  [[nodiscard]] const float* elevation(std::uint32_t i) const noexcept { return coordinates + i + chunk_size; }
+  [[nodiscard]] const float* azimuth(std::uint32_t i) const noexcept { return coordinates + i + 2 * chunk_size; }
 };
 
 /// Closest squared distance that is described: the published code skips the key point and its copies by this bound.
@@ -115,9 +119,10 @@ inline void locate(const Neighborhood& all, const Stretches& stretches, const Fr
       const simd::F32 azimuth = math::azimuth(local.x, local.y);
       const auto append = [&](const auto&... packing) {
         simd::store(chunk.index + size, index, packing...);
-        simd::store(chunk.distance + size, distance, packing...);
-        simd::store(chunk.elevation + size, elevation, packing...);
-        simd::store(chunk.azimuth + size, azimuth, packing...);
+        float* const coordinates = chunk.coordinates + size;
+        simd::store(coordinates, distance, packing...);
+        simd::store(coordinates + chunk_size, elevation, packing...);
+        simd::store(coordinates + 2 * chunk_size, azimuth, packing...);
       };
       const simd::Mask described = are_described(v.d2, radius);
       if (every(described)) {

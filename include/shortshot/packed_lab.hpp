@@ -1,10 +1,12 @@
 // shortshot/packed_lab.hpp: a CIELAB colour in 32 bits, for arrays with one colour per point.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "color.hpp"
 #include "config.hpp"
+#include "simd.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -27,6 +29,17 @@ class PackedLab {
   operator Lab() const noexcept {  // NOLINT: converts like a number
     return {static_cast<float>(bits_ & 2047u) * 0.05f, static_cast<float>(bits_ >> 11 & 1023u) * a_step - 90.0f,
             static_cast<float>(bits_ >> 21) * b_step - 108.875f};
+  }
+
+  /// The colours at lab[index[k]], for all lanes: what operator Lab gives.
+  [[nodiscard]] static LabLanes at(const PackedLab* lab, const std::uint32_t* index) noexcept {
+    using simd::all;
+    std::uint32_t packed[simd::lanes];
+    for (std::size_t k = 0; k < simd::lanes; ++k) packed[k] = lab[index[k]].bits_;
+    const simd::I32 bits = simd::load(packed);
+    return {to_float(bits & all(2047)) * all(0.05f),
+            to_float(shift_right(bits, 11) & all(1023)) * all(a_step) - all(90.0f),
+            to_float(shift_right(bits, 21) & all(2047)) * all(b_step) - all(108.875f)};
   }
 
  private:

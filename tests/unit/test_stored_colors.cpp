@@ -88,6 +88,29 @@ TEST_CASE("stored colors: packing keeps black, white and neutral exactly, and wh
   }
 }
 
+TEST_CASE("stored colors: registers of colours have the bits of single ones") {
+  std::vector<ss::Lab> exact;
+  for (const ss::Rgb& c : many_colors()) exact.push_back(ss::to_lab<ss::PublishedLab>(c));
+  const std::vector<ss::PackedLab> packed(exact.begin(), exact.end());
+  const ss::LabColors labs{exact.data(), {}};
+  const ss::PackedColors packed_labs{packed.data(), {}};
+  const auto check = [](const auto& colors, const std::uint32_t* index) {
+    const ss::LabLanes lanes = ss::colors_at(colors, index);
+    float L[ss::simd::lanes], a[ss::simd::lanes], b[ss::simd::lanes];
+    ss::simd::store(L, lanes.L);
+    ss::simd::store(a, lanes.a);
+    ss::simd::store(b, lanes.b);
+    for (std::size_t k = 0; k < ss::simd::lanes; ++k) REQUIRE(same_bits({L[k], a[k], b[k]}, colors(index[k])));
+  };
+  Random random(5);
+  for (int repeat = 0; repeat < 1000; ++repeat) {
+    std::uint32_t index[ss::simd::lanes];
+    for (std::uint32_t& i : index) i = static_cast<std::uint32_t>(random.below(exact.size()));
+    check(labs, index);
+    check(packed_labs, index);
+  }
+}
+
 TEST_CASE("stored colors: what no sRGB colour is, is clamped") {
   const ss::Lab most = ss::PackedLab({1e9f, infinity, 120.0f});
   CHECK(most.L == 100.0f);
