@@ -130,7 +130,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinte
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm256_cvtps_epi32(a.v)}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {_mm256_set1_epi32(value)}; }
+[[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {_mm256_set1_epi32(value)}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {_mm256_sub_epi32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {_mm256_and_si256(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept {
@@ -310,7 +310,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpr
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm_cvtps_epi32(a.v)}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {_mm_set1_epi32(value)}; }
+[[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {_mm_set1_epi32(value)}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {_mm_sub_epi32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {_mm_and_si128(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {_mm_castsi128_ps(_mm_cmpeq_epi32(a.v, b.v))}; }
@@ -471,7 +471,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {vcvtnq_s32_f32(a.v)}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {vdupq_n_s32(value)}; }
+[[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {vdupq_n_s32(value)}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {vsubq_s32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {vandq_s32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {vceqq_s32(a.v, b.v)}; }
@@ -645,7 +645,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {bits_of({a.v + 12582912.0f}).v - 0x4B400000}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {value}; }
+[[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {value}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {a.v - b.v}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {a.v & b.v}; }
 [[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {a.v == b.v}; }
@@ -1413,12 +1413,13 @@ class PackedLab {
   /// The colours at lab[index[k]], for all lanes: what operator Lab gives.
   [[nodiscard]] static LabLanes at(const PackedLab* lab, const std::uint32_t* index) noexcept {
     using simd::all;
+    using simd::all_int;
     std::uint32_t packed[simd::lanes];
     for (std::size_t k = 0; k < simd::lanes; ++k) packed[k] = lab[index[k]].bits_;
     const simd::I32 bits = simd::load(packed);
-    return {to_float(bits & all(2047)) * all(0.05f),
-            to_float(shift_right(bits, 11) & all(1023)) * all(a_step) - all(90.0f),
-            to_float(shift_right(bits, 21) & all(2047)) * all(b_step) - all(108.875f)};
+    return {to_float(bits & all_int(2047)) * all(0.05f),
+            to_float(shift_right(bits, 11) & all_int(1023)) * all(a_step) - all(90.0f),
+            to_float(shift_right(bits, 21) & all_int(2047)) * all(b_step) - all(108.875f)};
   }
 
  private:
@@ -1667,44 +1668,45 @@ namespace detail {
 /// The cell of a position. The very end of the axis is the upper border of the last cell.
 template <class Axis>
 [[nodiscard]] inline simd::I32 cell_of(simd::I32 position) noexcept {
-  const simd::I32 cell = simd::small_min(simd::shift_right(position, Axis::bits), simd::all(Axis::cells - 1));
-  return Axis::below_zero ? simd::small_max(cell, simd::all(0)) : cell;
+  const simd::I32 cell = simd::small_min(simd::shift_right(position, Axis::bits), simd::all_int(Axis::cells - 1));
+  return Axis::below_zero ? simd::small_max(cell, simd::all_int(0)) : cell;
 }
 
 template <int Factor>
 [[nodiscard]] inline simd::I32 times(simd::I32 a) noexcept {
   if constexpr (Factor == 1) return a;
-  if constexpr (Factor < 32768) return simd::small_product(a, simd::all(Factor));
-  return simd::small_product(a, simd::all(Factor / 2)) + simd::small_product(a, simd::all(Factor - Factor / 2));
+  if constexpr (Factor < 32768) return simd::small_product(a, simd::all_int(Factor));
+  return simd::small_product(a, simd::all_int(Factor / 2)) + simd::small_product(a, simd::all_int(Factor - Factor / 2));
 }
 
 /// From a cell to the next one in a direction (1 or -1), around the ends.
 template <class Axis>
 [[nodiscard, gnu::always_inline]] inline simd::I32 next_around(simd::I32 cell, simd::I32 direction) noexcept {
-  using simd::all;
+  using simd::all_int;
   const simd::I32 next = cell + direction;
-  if constexpr ((Axis::cells & (Axis::cells - 1)) == 0) return next & all(Axis::cells - 1);
-  return (next + keep(is_negative(next), all(Axis::cells))) - keep(next > all(Axis::cells - 1), all(Axis::cells));
+  if constexpr ((Axis::cells & (Axis::cells - 1)) == 0) return next & all_int(Axis::cells - 1);
+  return (next + keep(is_negative(next), all_int(Axis::cells))) -
+         keep(next > all_int(Axis::cells - 1), all_int(Axis::cells));
 }
 
 /// The share of a position in a cell: fraction 0 is the cell's lower border, 2^Axis::bits its upper one.
 template <class Axis>
 [[nodiscard, gnu::always_inline]] inline Share share(simd::I32 cell, simd::I32 fraction,
                                                      const VoteUnit& unit) noexcept {
-  using simd::all;
+  using simd::all_int;
   constexpr std::int32_t half = std::int32_t{1} << (Axis::bits - 1);
-  const simd::I32 side = fraction - all(half + 1);
+  const simd::I32 side = fraction - all_int(half + 1);
   const simd::Mask lower = is_negative(side);  // the middle of the cell included
   const simd::I32 direction = minus_one_or_one(lower);
   // The partner's share is the distance from the middle; ~side = -side - 1 is what is left up to it.
   const simd::I32 twice_partner = simd::shift_right(invert(lower, side), Axis::bits - unit.bits - 1);
   const simd::I32 index = times<Axis::stride>(cell);
-  if constexpr (Axis::cells == 1) return {index, all(0), twice_partner, all(0) == all(0)};
+  if constexpr (Axis::cells == 1) return {index, all_int(0), twice_partner, all_int(0) == all_int(0)};
   if constexpr (Axis::end == Beyond::first_cell) {
     const simd::I32 step = times<Axis::stride>(next_around<Axis>(cell, direction) - cell);
-    return {index, step, twice_partner, all(0) == all(1)};
+    return {index, step, twice_partner, all_int(0) == all_int(1)};
   }
-  const simd::Mask alone = cell == drop(lower, all(Axis::cells - 1));  // first and lower, or last and upper
+  const simd::Mask alone = cell == drop(lower, all_int(Axis::cells - 1));  // first and lower, or last and upper
   return {index, drop(alone, times<Axis::stride>(direction)), twice_partner, alone};
 }
 
@@ -1731,7 +1733,7 @@ struct AdditiveVoting {
 
   template <class Axis>
   [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
-    simd::I32 fraction = position & simd::all((std::int32_t{1} << Axis::bits) - 1);
+    simd::I32 fraction = position & simd::all_int((std::int32_t{1} << Axis::bits) - 1);
     if constexpr (Axis::below_zero) {
       const simd::Mask below = is_negative(position);
       fraction = keep(below, position) + drop(below, fraction);
@@ -1742,13 +1744,13 @@ struct AdditiveVoting {
   template <class... AllAxes>
   [[nodiscard, gnu::always_inline]] static Votes<sizeof...(AllAxes) + 1> combine(
       const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
-    using simd::all;
+    using simd::all_int;
     constexpr int axes = sizeof...(AllAxes);
     constexpr bool may_be_alone[] = {AllAxes::cells == 1 || AllAxes::end == Beyond::nothing...};
     simd::I32 twice_partners = shares[0].twice_partner;
     detail::unroll<axes - 1>([&](auto i) { twice_partners = twice_partners + shares[i + 1].twice_partner; });
-    const simd::I32 sum = all(axes * unit.one) - simd::shift_right(twice_partners, 1);
-    const simd::I32 rest = sum - all(unit.one);
+    const simd::I32 sum = all_int(axes * unit.one) - simd::shift_right(twice_partners, 1);
+    const simd::I32 rest = sum - all_int(unit.one);
 
     Votes<axes + 1> votes;
     votes.index[0] = detail::primary_index(shares);
@@ -1756,7 +1758,7 @@ struct AdditiveVoting {
     detail::unroll<axes>([&](auto i) {
       // A share 1 - p replaced by p.
       simd::I32 weight = rest + shares[i].twice_partner;
-      if constexpr (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all(unit.one));
+      if constexpr (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all_int(unit.one));
       votes.index[i + 1] = votes.index[0] + shares[i].step;
       votes.weight[i + 1] = may_be_alone[i] ? drop(shares[i].alone, weight) : weight;
     });
@@ -1774,14 +1776,15 @@ struct HardVoting {
 
   template <class Axis>
   [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit&) noexcept {
-    using simd::all;
-    return {detail::times<Axis::stride>(detail::cell_of<Axis>(position)), all(0), all(0), all(0) == all(0)};
+    using simd::all_int;
+    return {detail::times<Axis::stride>(detail::cell_of<Axis>(position)), all_int(0), all_int(0),
+            all_int(0) == all_int(0)};
   }
 
   template <class... AllAxes>
   [[nodiscard, gnu::always_inline]] static Votes<1> combine(const Share (&shares)[sizeof...(AllAxes)],
                                                             const VoteUnit& unit) noexcept {
-    return {{detail::primary_index(shares)}, {simd::all(unit.one)}};
+    return {{detail::primary_index(shares)}, {simd::all_int(unit.one)}};
   }
 };
 

@@ -34,12 +34,13 @@ class PackedLab {
   /// The colours at lab[index[k]], for all lanes: what operator Lab gives.
   [[nodiscard]] static LabLanes at(const PackedLab* lab, const std::uint32_t* index) noexcept {
     using simd::all;
+    using simd::all_int;
     std::uint32_t packed[simd::lanes];
     for (std::size_t k = 0; k < simd::lanes; ++k) packed[k] = lab[index[k]].bits_;
     const simd::I32 bits = simd::load(packed);
-    return {to_float(bits & all(2047)) * all(0.05f),
-            to_float(shift_right(bits, 11) & all(1023)) * all(a_step) - all(90.0f),
-            to_float(shift_right(bits, 21) & all(2047)) * all(b_step) - all(108.875f)};
+    return {to_float(bits & all_int(2047)) * all(0.05f),
+            to_float(shift_right(bits, 11) & all_int(1023)) * all(a_step) - all(90.0f),
+            to_float(shift_right(bits, 21) & all_int(2047)) * all(b_step) - all(108.875f)};
   }
 
  private:

@@ -84,7 +84,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinte
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm256_cvtps_epi32(a.v)}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {_mm256_set1_epi32(value)}; }
+[[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {_mm256_set1_epi32(value)}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {_mm256_sub_epi32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {_mm256_and_si256(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept {

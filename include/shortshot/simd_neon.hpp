@@ -80,7 +80,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {vcvtnq_s32_f32(a.v)}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {vdupq_n_s32(value)}; }
+[[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {vdupq_n_s32(value)}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {vsubq_s32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {vandq_s32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {vceqq_s32(a.v, b.v)}; }

@@ -89,7 +89,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {bits_of({a.v + 12582912.0f}).v - 0x4B400000}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {value}; }
+[[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {value}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {a.v - b.v}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {a.v & b.v}; }
 [[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {a.v == b.v}; }

@@ -82,7 +82,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpr
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm_cvtps_epi32(a.v)}; }
 
 /// Lanes of integers.
-[[nodiscard]] inline I32 all(std::int32_t value) noexcept { return {_mm_set1_epi32(value)}; }
+[[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {_mm_set1_epi32(value)}; }
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {_mm_sub_epi32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {_mm_and_si128(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {_mm_castsi128_ps(_mm_cmpeq_epi32(a.v, b.v))}; }

@@ -58,44 +58,45 @@ namespace detail {
 /// The cell of a position. The very end of the axis is the upper border of the last cell.
 template <class Axis>
 [[nodiscard]] inline simd::I32 cell_of(simd::I32 position) noexcept {
-  const simd::I32 cell = simd::small_min(simd::shift_right(position, Axis::bits), simd::all(Axis::cells - 1));
-  return Axis::below_zero ? simd::small_max(cell, simd::all(0)) : cell;
+  const simd::I32 cell = simd::small_min(simd::shift_right(position, Axis::bits), simd::all_int(Axis::cells - 1));
+  return Axis::below_zero ? simd::small_max(cell, simd::all_int(0)) : cell;
 }
 
 template <int Factor>
 [[nodiscard]] inline simd::I32 times(simd::I32 a) noexcept {
   if constexpr (Factor == 1) return a;
-  if constexpr (Factor < 32768) return simd::small_product(a, simd::all(Factor));
-  return simd::small_product(a, simd::all(Factor / 2)) + simd::small_product(a, simd::all(Factor - Factor / 2));
+  if constexpr (Factor < 32768) return simd::small_product(a, simd::all_int(Factor));
+  return simd::small_product(a, simd::all_int(Factor / 2)) + simd::small_product(a, simd::all_int(Factor - Factor / 2));
 }
 
 /// From a cell to the next one in a direction (1 or -1), around the ends.
 template <class Axis>
 [[nodiscard, gnu::always_inline]] inline simd::I32 next_around(simd::I32 cell, simd::I32 direction) noexcept {
-  using simd::all;
+  using simd::all_int;
   const simd::I32 next = cell + direction;
-  if constexpr ((Axis::cells & (Axis::cells - 1)) == 0) return next & all(Axis::cells - 1);
-  return (next + keep(is_negative(next), all(Axis::cells))) - keep(next > all(Axis::cells - 1), all(Axis::cells));
+  if constexpr ((Axis::cells & (Axis::cells - 1)) == 0) return next & all_int(Axis::cells - 1);
+  return (next + keep(is_negative(next), all_int(Axis::cells))) -
+         keep(next > all_int(Axis::cells - 1), all_int(Axis::cells));
 }
 
 /// The share of a position in a cell: fraction 0 is the cell's lower border, 2^Axis::bits its upper one.
 template <class Axis>
 [[nodiscard, gnu::always_inline]] inline Share share(simd::I32 cell, simd::I32 fraction,
                                                      const VoteUnit& unit) noexcept {
-  using simd::all;
+  using simd::all_int;
   constexpr std::int32_t half = std::int32_t{1} << (Axis::bits - 1);
-  const simd::I32 side = fraction - all(half + 1);
+  const simd::I32 side = fraction - all_int(half + 1);
   const simd::Mask lower = is_negative(side);  // the middle of the cell included
   const simd::I32 direction = minus_one_or_one(lower);
   // The partner's share is the distance from the middle; ~side = -side - 1 is what is left up to it.
   const simd::I32 twice_partner = simd::shift_right(invert(lower, side), Axis::bits - unit.bits - 1);
   const simd::I32 index = times<Axis::stride>(cell);
-  if constexpr (Axis::cells == 1) return {index, all(0), twice_partner, all(0) == all(0)};
+  if constexpr (Axis::cells == 1) return {index, all_int(0), twice_partner, all_int(0) == all_int(0)};
   if constexpr (Axis::end == Beyond::first_cell) {
     const simd::I32 step = times<Axis::stride>(next_around<Axis>(cell, direction) - cell);
-    return {index, step, twice_partner, all(0) == all(1)};
+    return {index, step, twice_partner, all_int(0) == all_int(1)};
   }
-  const simd::Mask alone = cell == drop(lower, all(Axis::cells - 1));  // first and lower, or last and upper
+  const simd::Mask alone = cell == drop(lower, all_int(Axis::cells - 1));  // first and lower, or last and upper
   return {index, drop(alone, times<Axis::stride>(direction)), twice_partner, alone};
 }
 
@@ -122,7 +123,7 @@ struct AdditiveVoting {
 
   template <class Axis>
   [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
-    simd::I32 fraction = position & simd::all((std::int32_t{1} << Axis::bits) - 1);
+    simd::I32 fraction = position & simd::all_int((std::int32_t{1} << Axis::bits) - 1);
     if constexpr (Axis::below_zero) {
       const simd::Mask below = is_negative(position);
       fraction = keep(below, position) + drop(below, fraction);
@@ -133,13 +134,13 @@ struct AdditiveVoting {
   template <class... AllAxes>
   [[nodiscard, gnu::always_inline]] static Votes<sizeof...(AllAxes) + 1> combine(
       const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
-    using simd::all;
+    using simd::all_int;
     constexpr int axes = sizeof...(AllAxes);
     constexpr bool may_be_alone[] = {AllAxes::cells == 1 || AllAxes::end == Beyond::nothing...};
     simd::I32 twice_partners = shares[0].twice_partner;
     detail::unroll<axes - 1>([&](auto i) { twice_partners = twice_partners + shares[i + 1].twice_partner; });
-    const simd::I32 sum = all(axes * unit.one) - simd::shift_right(twice_partners, 1);
-    const simd::I32 rest = sum - all(unit.one);
+    const simd::I32 sum = all_int(axes * unit.one) - simd::shift_right(twice_partners, 1);
+    const simd::I32 rest = sum - all_int(unit.one);
 
     Votes<axes + 1> votes;
     votes.index[0] = detail::primary_index(shares);
@@ -147,7 +148,7 @@ struct AdditiveVoting {
     detail::unroll<axes>([&](auto i) {
       // A share 1 - p replaced by p.
       simd::I32 weight = rest + shares[i].twice_partner;
-      if constexpr (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all(unit.one));
+      if constexpr (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all_int(unit.one));
       votes.index[i + 1] = votes.index[0] + shares[i].step;
       votes.weight[i + 1] = may_be_alone[i] ? drop(shares[i].alone, weight) : weight;
     });
@@ -165,14 +166,15 @@ struct HardVoting {
 
   template <class Axis>
   [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit&) noexcept {
-    using simd::all;
-    return {detail::times<Axis::stride>(detail::cell_of<Axis>(position)), all(0), all(0), all(0) == all(0)};
+    using simd::all_int;
+    return {detail::times<Axis::stride>(detail::cell_of<Axis>(position)), all_int(0), all_int(0),
+            all_int(0) == all_int(0)};
   }
 
   template <class... AllAxes>
   [[nodiscard, gnu::always_inline]] static Votes<1> combine(const Share (&shares)[sizeof...(AllAxes)],
                                                             const VoteUnit& unit) noexcept {
-    return {{detail::primary_index(shares)}, {simd::all(unit.one)}};
+    return {{detail::primary_index(shares)}, {simd::all_int(unit.one)}};
   }
 };
 

@@ -54,7 +54,7 @@ done
 
 # Instructions that compute in double: SSE2 and AVX, x87, AArch64, ARM's VFP. Moves and bit operations are not among them.
 doubles=$("${OBJDUMP:-objdump}" -d --no-show-raw-insn "$object" | awk -F '\t' '
-  { name = $2; sub(/ .*/, "", name); operands = $2 " " $3 }
+  { name = $2; sub(/ .*/, "", name); operands = $2 " " $3; sub(/[#<].*/, "", operands) }  # no addresses
   name ~ /^v?(add|sub|mul|div|sqrt|max|min|u?comi|cmp[a-z]*|round|hadd|hsub|dp|addsub)[sp]d$/ ||
   name ~ /^vfn?m(add|sub|addsub|subadd)[0-9]*[sp]d$/ ||
   name ~ /^v?cvtt?[a-z0-9]*[sp]d/ ||

@@ -106,7 +106,7 @@ std::int32_t first_lane(const ss::simd::I32& value) {
 /// A position in cells along an axis, split.
 template <class Voting, class Axis>
 ss::Share split(float cells) {
-  return Voting::template split<Axis>(ss::simd::all(static_cast<std::int32_t>(cells * Axis::one)), unit_of_votes);
+  return Voting::template split<Axis>(ss::simd::all_int(static_cast<std::int32_t>(cells * Axis::one)), unit_of_votes);
 }
 
 /// The weights of all votes of one point at a position in cells, added up.
