@@ -93,7 +93,6 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinte
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm256_and_ps(a.v, b.v)}; }
-[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {_mm256_xor_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm256_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm256_sqrt_ps(a.v)}; }
@@ -122,9 +121,6 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinte
 
 /// Towards zero; |a| must stay below 2^31.
 [[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {_mm256_cvttps_epi32(a.v)}; }
-[[nodiscard]] inline F32 truncate(F32 a) noexcept {
-  return {_mm256_round_ps(a.v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC)};
-}
 
 /// To the nearest integer, ties to even (the default rounding mode).
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm256_cvtps_epi32(a.v)}; }
@@ -275,7 +271,6 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpr
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm_cmpge_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {_mm_cmpneq_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm_and_ps(a.v, b.v)}; }
-[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {_mm_xor_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm_sqrt_ps(a.v)}; }
@@ -304,7 +299,6 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpr
 
 /// Towards zero; |a| must stay below 2^31.
 [[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {_mm_cvttps_epi32(a.v)}; }
-[[nodiscard]] inline F32 truncate(F32 a) noexcept { return {_mm_cvtepi32_ps(_mm_cvttps_epi32(a.v))}; }
 
 /// To the nearest integer, ties to even (the default rounding mode).
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm_cvtps_epi32(a.v)}; }
@@ -436,7 +430,6 @@ inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {vcgeq_f32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {vmvnq_u32(vceqq_f32(a.v, b.v))}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {vandq_u32(a.v, b.v)}; }
-[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {veorq_u32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {vorrq_u32(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {vsqrtq_f32(a.v)}; }
@@ -465,7 +458,6 @@ inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq
 
 /// Towards zero; |a| must stay below 2^31.
 [[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {vcvtq_s32_f32(a.v)}; }
-[[nodiscard]] inline F32 truncate(F32 a) noexcept { return {vrndq_f32(a.v)}; }
 
 /// To the nearest integer, ties to even (the default rounding mode).
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {vcvtnq_s32_f32(a.v)}; }
@@ -609,11 +601,10 @@ inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {a.v >= b.v}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
-[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {root(a.v)}; }
-[[nodiscard]] inline F32 abs(F32 a) noexcept { return {a.v < 0.0f ? 0.0f - a.v : a.v}; }
+[[nodiscard]] inline F32 abs(F32 a) noexcept { return {__builtin_fabsf(a.v)}; }
 [[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {a.v < b.v ? a.v : b.v}; }
 [[nodiscard]] inline F32 max(F32 a, F32 b) noexcept { return {a.v > b.v ? a.v : b.v}; }
 
@@ -638,7 +629,6 @@ inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint
 
 /// Towards zero; |a| must stay below 2^31.
 [[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {static_cast<std::int32_t>(a.v)}; }
-[[nodiscard]] inline F32 truncate(F32 a) noexcept { return {static_cast<float>(static_cast<std::int32_t>(a.v))}; }
 
 /// To the nearest integer, ties to even; |a| <= 2^22. Adding 1.5 * 2^23 leaves the integer in the low mantissa bits:
 /// the same bits on every machine, with no call into libm.
@@ -1652,7 +1642,7 @@ struct VoteUnit {
 struct Share {
   simd::I32 cell;           ///< index of the primary cell, times the axis' stride
   simd::I32 step;           ///< index of the partner cell minus that of the primary one; 0 where there is no partner
-  simd::I32 twice_partner;  ///< twice the partner's share in units, 0 to 1; the primary cell has the rest
+  simd::I32 twice_partner;  ///< twice the partner's share in units: 0 to 1, to 3 below zero; the rest is the cell's
   simd::Mask alone;         ///< there is no partner: only where the axis ends
 };
 
@@ -1674,9 +1664,13 @@ template <class Axis>
 
 template <int Factor>
 [[nodiscard]] inline simd::I32 times(simd::I32 a) noexcept {
-  if constexpr (Factor == 1) return a;
-  if constexpr (Factor < 32768) return simd::small_product(a, simd::all_int(Factor));
-  return simd::small_product(a, simd::all_int(Factor / 2)) + simd::small_product(a, simd::all_int(Factor - Factor / 2));
+  if constexpr (Factor == 1) {
+    return a;
+  } else if constexpr (Factor < 32768) {
+    return simd::small_product(a, simd::all_int(Factor));
+  } else {
+    return times<Factor / 2>(a) + times<Factor - Factor / 2>(a);
+  }
 }
 
 /// From a cell to the next one in a direction (1 or -1), around the ends.
@@ -2173,6 +2167,21 @@ struct Place {
   return count;
 }
 
+/// The smallest number in [low, high] for which `enough` holds; it does for `high`, and for all above one for which it
+/// does.
+template <class Predicate>
+[[nodiscard]] inline std::uint32_t bisect(std::uint32_t low, std::uint32_t high, const Predicate& enough) noexcept {
+  while (low < high) {
+    const std::uint32_t middle = low + (high - low) / 2;
+    if (enough(middle)) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return low;
+}
+
 /// The member of the given rank; rank 0 is the closest. The neighbourhood must have more members than that.
 [[nodiscard]] inline std::uint32_t member_of_rank(const Neighborhood& n, Radius radius, int rank) noexcept {
   int copies = 0;  // of the key point: at distance 0, and within every limit
@@ -2182,23 +2191,23 @@ struct Place {
     std::memcpy(&value, &bits, sizeof value);
     return value;
   };
-  // Bits of floats >= 0 order as the floats do: bisect for the smallest d2 with more than `rank` members within.
-  std::uint32_t low = 0;
-  std::uint32_t high = 0;
-  std::memcpy(&high, &radius.squared, sizeof high);
-  while (low < high) {
-    const std::uint32_t middle = low + (high - low) / 2;
-    if (count_within(n, as_float(middle)) - copies > rank) {
-      high = middle;
-    } else {
-      low = middle + 1;
+  // Bits of floats >= 0 order as the floats do.
+  std::uint32_t most = 0;
+  std::memcpy(&most, &radius.squared, sizeof most);
+  const auto within = [&](std::uint32_t bits) { return count_within(n, as_float(bits)) - copies; };
+  const std::uint32_t bits = bisect(0, most, [&](std::uint32_t limit) { return within(limit) > rank; });
+  const float d2 = as_float(bits);
+  const int closer = bits == 0 ? 0 : within(bits - 1);
+  if (rank == closer) return next_member(n, radius, {d2, -1});
+
+  const std::uint32_t index = bisect(0, 0xFFFFFFFFu, [&](std::uint32_t limit) {
+    int equally_far = 0;
+    for (std::uint32_t i = 0; i < n.size; ++i) {
+      equally_far += n.d2[i] == d2 && n.index[i] <= limit && is_member(n, i, radius) ? 1 : 0;
     }
-  }
-  const float d2 = as_float(low);
-  const int closer = low == 0 ? 0 : count_within(n, as_float(low - 1)) - copies;
-  std::uint32_t member = next_member(n, radius, {d2, -1});
-  for (int k = closer; k < rank; ++k) member = next_member(n, radius, {d2, n.index[member]});
-  return member;
+    return equally_far > rank - closer;
+  });
+  return next_member(n, radius, {d2, static_cast<std::int64_t>(index) - 1});
 }
 
 }  // namespace detail
@@ -2509,7 +2518,7 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// Neighbours per chunk. The arrays of a chunk are all the stack that the kernel uses beyond a few registers.
+/// Neighbours per chunk: of this length are all arrays that the kernel has on the stack.
 inline constexpr std::uint32_t chunk_size = 64;
 static_assert(chunk_size % simd::lanes == 0, "registers do not reach beyond the end of a chunk");
 
@@ -2568,7 +2577,9 @@ template <int Borders>
     if (any(near)) {
       const float splitter = math::length_splitter(radius.value);
       const simd::F32 exact = math::length(local.x, local.y, local.z, splitter) * inverse;
-      return select(near, simd::min(exact, simd::all(1.0f)), distance);
+      // A frame that is not quite orthonormal must not move its neighbours from border to border.
+      const simd::Mask same = simd::all(2e-6f) > simd::abs(exact - distance);
+      return select(near & same, simd::min(exact, simd::all(1.0f)), distance);
     }
   }
   return distance;
@@ -2578,6 +2589,8 @@ template <int Borders>
 /// Neighbours that follow each other lie in the same cells, where each addition would wait for the one before; a chunk
 /// from four places has others to add in between. (Sums do not depend on the order.) The last chunk has what is left,
 /// in one stretch.
+inline constexpr std::uint32_t stretches_of_full_chunk = 4;
+
 struct Stretches {
   std::uint32_t first;
   std::uint32_t stride;
@@ -2586,9 +2599,9 @@ struct Stretches {
 };
 
 [[nodiscard]] inline Stretches stretches_of_chunk(std::uint32_t chunk, std::uint32_t neighbors) noexcept {
-  constexpr std::uint32_t quarter = chunk_size / 4;
+  constexpr std::uint32_t length = chunk_size / stretches_of_full_chunk;
   const std::uint32_t full_chunks = neighbors / chunk_size;
-  if (chunk < full_chunks) return {chunk * quarter, full_chunks * quarter, 4, quarter};
+  if (chunk < full_chunks) return {chunk * length, full_chunks * length, stretches_of_full_chunk, length};
   return {chunk * chunk_size, 0, 1, neighbors - chunk * chunk_size};
 }
 
@@ -2722,7 +2735,8 @@ inline void scatter(const ChunkVotes<Count>& votes, std::uint32_t size, float* p
   const auto add = [&](std::uint32_t i) {
     unroll<Count>([&](auto k) { add_bits(part + votes.index[k * chunk_size + i], votes.weight[k * chunk_size + i]); });
   };
-  constexpr std::uint32_t quarter = chunk_size / 4;
+  constexpr std::uint32_t quarter = chunk_size / 4;  // a stretch of a full chunk; any other split would do
+  static_assert(stretches_of_full_chunk == 4, "what is written out below");
   std::uint32_t i = 0;
   if (size >= 3 * quarter) {
     for (; i < size - 3 * quarter; ++i) unroll<4>([&](auto k) { add(i + k * quarter); });
@@ -2793,7 +2807,9 @@ template <int Size>
 
 /// Describe a gathered neighbourhood in a frame: the kernel of every descriptor.
 ///
-/// `n`       neighbours of one key point, gathered with at least `radius` (farther ones are left out)
+/// `n`       neighbours of one key point, gathered with at least `radius` (farther ones are left out); if they do not
+/// come
+///           from a search, d2 must be that of dx, dy and dz, and the indices must be ones that `colors` has
 /// `colors`  a source of Lab by index (RgbColors, LabColors, your own like them), or NoColors if D needs none
 /// `frame`   an orthonormal frame: estimate_frame(), or one you know
 /// `out`     D::size floats: the parts of D in order, L2 norm 1
@@ -2801,14 +2817,15 @@ template <int Size>
 /// Source: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code (voting.hpp).
 /// There is no minimum of neighbours but one. Statuses: bad_radius, bad_frame, missing_colors, too_many_neighbors (over
 /// 2^24), too_few_neighbors (none but the key point and its copies); `out` is all zeros then, and never NaN. No
-/// allocation; reentrant; 3 to 10 KB of stack. The result does not depend on the order of the neighbours.
+/// allocation; reentrant; 2 to 17 KB of stack (5 for SCSH by the published rule). The result does not depend on the
+/// order of the neighbours.
 template <class D, class Colors>
 [[nodiscard]] inline Status describe(const Neighborhood& n, const Colors& colors, const Frame& frame, Radius radius,
                                      float* out) noexcept {
-  std::memset(out, 0, D::size_bytes);
   static_assert(!D::needs_colors || !std::is_same<Colors, NoColors>::value,
                 "D has a colour part: describe() supports RgbColors, LabColors or another source of Lab by index");
   static_assert(detail::has_rule_of<D, Colors>(nullptr), "describe() supports colours converted by D's own rule");
+  std::memset(out, 0, D::size_bytes);
   Status status = check(radius);
   if (status == Status::ok) status = check(frame);
   if (status == Status::ok && D::needs_colors) status = colors.status();
@@ -3175,7 +3192,7 @@ struct SortedPoints {
 
 /// The places in the cloud of a register of points.
 template <class Index>
-[[nodiscard]] inline simd::I32 load_indices(const Index* index) noexcept {
+[[nodiscard]] inline simd::I32 load_order(const Index* index) noexcept {
   if constexpr (sizeof(Index) == sizeof(std::uint32_t)) {
     return simd::load(index);
   } else {
@@ -3217,7 +3234,7 @@ inline void offer_run(const SortedPoints<Index>& points, std::size_t i, std::siz
     simd::store(to.dy + size, dy, inside);
     simd::store(to.dz + size, dz, inside);
     simd::store(to.d2 + size, d2, inside);
-    simd::store(to.index + size, load_indices(order + i), inside);
+    simd::store(to.index + size, load_order(order + i), inside);
     size += inside.count;
   }
   out.found += size - out.size;

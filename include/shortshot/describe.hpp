@@ -106,7 +106,8 @@ inline void scatter(const ChunkVotes<Count>& votes, std::uint32_t size, float* p
   const auto add = [&](std::uint32_t i) {
     unroll<Count>([&](auto k) { add_bits(part + votes.index[k * chunk_size + i], votes.weight[k * chunk_size + i]); });
   };
-  constexpr std::uint32_t quarter = chunk_size / 4;
+  constexpr std::uint32_t quarter = chunk_size / 4;  // a stretch of a full chunk; any other split would do
+  static_assert(stretches_of_full_chunk == 4, "what is written out below");
   std::uint32_t i = 0;
   if (size >= 3 * quarter) {
     for (; i < size - 3 * quarter; ++i) unroll<4>([&](auto k) { add(i + k * quarter); });
@@ -177,7 +178,9 @@ template <int Size>
 
 /// Describe a gathered neighbourhood in a frame: the kernel of every descriptor.
 ///
-/// `n`       neighbours of one key point, gathered with at least `radius` (farther ones are left out)
+/// `n`       neighbours of one key point, gathered with at least `radius` (farther ones are left out); if they do not
+/// come
+///           from a search, d2 must be that of dx, dy and dz, and the indices must be ones that `colors` has
 /// `colors`  a source of Lab by index (RgbColors, LabColors, your own like them), or NoColors if D needs none
 /// `frame`   an orthonormal frame: estimate_frame(), or one you know
 /// `out`     D::size floats: the parts of D in order, L2 norm 1
@@ -185,14 +188,15 @@ template <int Size>
 /// Source: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code (voting.hpp).
 /// There is no minimum of neighbours but one. Statuses: bad_radius, bad_frame, missing_colors, too_many_neighbors (over
 /// 2^24), too_few_neighbors (none but the key point and its copies); `out` is all zeros then, and never NaN. No
-/// allocation; reentrant; 3 to 10 KB of stack. The result does not depend on the order of the neighbours.
+/// allocation; reentrant; 2 to 17 KB of stack (5 for SCSH by the published rule). The result does not depend on the
+/// order of the neighbours.
 template <class D, class Colors>
 [[nodiscard]] inline Status describe(const Neighborhood& n, const Colors& colors, const Frame& frame, Radius radius,
                                      float* out) noexcept {
-  std::memset(out, 0, D::size_bytes);
   static_assert(!D::needs_colors || !std::is_same<Colors, NoColors>::value,
                 "D has a colour part: describe() supports RgbColors, LabColors or another source of Lab by index");
   static_assert(detail::has_rule_of<D, Colors>(nullptr), "describe() supports colours converted by D's own rule");
+  std::memset(out, 0, D::size_bytes);
   Status status = check(radius);
   if (status == Status::ok) status = check(frame);
   if (status == Status::ok && D::needs_colors) status = colors.status();

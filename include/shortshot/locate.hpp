@@ -15,7 +15,7 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// Neighbours per chunk. The arrays of a chunk are all the stack that the kernel uses beyond a few registers.
+/// Neighbours per chunk: of this length are all arrays that the kernel has on the stack.
 inline constexpr std::uint32_t chunk_size = 64;
 static_assert(chunk_size % simd::lanes == 0, "registers do not reach beyond the end of a chunk");
 
@@ -74,7 +74,9 @@ template <int Borders>
     if (any(near)) {
       const float splitter = math::length_splitter(radius.value);
       const simd::F32 exact = math::length(local.x, local.y, local.z, splitter) * inverse;
-      return select(near, simd::min(exact, simd::all(1.0f)), distance);
+      // A frame that is not quite orthonormal must not move its neighbours from border to border.
+      const simd::Mask same = simd::all(2e-6f) > simd::abs(exact - distance);
+      return select(near & same, simd::min(exact, simd::all(1.0f)), distance);
     }
   }
   return distance;
@@ -84,6 +86,8 @@ template <int Borders>
 /// Neighbours that follow each other lie in the same cells, where each addition would wait for the one before; a chunk
 /// from four places has others to add in between. (Sums do not depend on the order.) The last chunk has what is left,
 /// in one stretch.
+inline constexpr std::uint32_t stretches_of_full_chunk = 4;
+
 struct Stretches {
   std::uint32_t first;
   std::uint32_t stride;
@@ -92,9 +96,9 @@ struct Stretches {
 };
 
 [[nodiscard]] inline Stretches stretches_of_chunk(std::uint32_t chunk, std::uint32_t neighbors) noexcept {
-  constexpr std::uint32_t quarter = chunk_size / 4;
+  constexpr std::uint32_t length = chunk_size / stretches_of_full_chunk;
   const std::uint32_t full_chunks = neighbors / chunk_size;
-  if (chunk < full_chunks) return {chunk * quarter, full_chunks * quarter, 4, quarter};
+  if (chunk < full_chunks) return {chunk * length, full_chunks * length, stretches_of_full_chunk, length};
   return {chunk * chunk_size, 0, 1, neighbors - chunk * chunk_size};
 }
 

@@ -54,6 +54,21 @@ struct Place {
   return count;
 }
 
+/// The smallest number in [low, high] for which `enough` holds; it does for `high`, and for all above one for which it
+/// does.
+template <class Predicate>
+[[nodiscard]] inline std::uint32_t bisect(std::uint32_t low, std::uint32_t high, const Predicate& enough) noexcept {
+  while (low < high) {
+    const std::uint32_t middle = low + (high - low) / 2;
+    if (enough(middle)) {
+      high = middle;
+    } else {
+      low = middle + 1;
+    }
+  }
+  return low;
+}
+
 /// The member of the given rank; rank 0 is the closest. The neighbourhood must have more members than that.
 [[nodiscard]] inline std::uint32_t member_of_rank(const Neighborhood& n, Radius radius, int rank) noexcept {
   int copies = 0;  // of the key point: at distance 0, and within every limit
@@ -63,23 +78,23 @@ struct Place {
     std::memcpy(&value, &bits, sizeof value);
     return value;
   };
-  // Bits of floats >= 0 order as the floats do: bisect for the smallest d2 with more than `rank` members within.
-  std::uint32_t low = 0;
-  std::uint32_t high = 0;
-  std::memcpy(&high, &radius.squared, sizeof high);
-  while (low < high) {
-    const std::uint32_t middle = low + (high - low) / 2;
-    if (count_within(n, as_float(middle)) - copies > rank) {
-      high = middle;
-    } else {
-      low = middle + 1;
+  // Bits of floats >= 0 order as the floats do.
+  std::uint32_t most = 0;
+  std::memcpy(&most, &radius.squared, sizeof most);
+  const auto within = [&](std::uint32_t bits) { return count_within(n, as_float(bits)) - copies; };
+  const std::uint32_t bits = bisect(0, most, [&](std::uint32_t limit) { return within(limit) > rank; });
+  const float d2 = as_float(bits);
+  const int closer = bits == 0 ? 0 : within(bits - 1);
+  if (rank == closer) return next_member(n, radius, {d2, -1});
+
+  const std::uint32_t index = bisect(0, 0xFFFFFFFFu, [&](std::uint32_t limit) {
+    int equally_far = 0;
+    for (std::uint32_t i = 0; i < n.size; ++i) {
+      equally_far += n.d2[i] == d2 && n.index[i] <= limit && is_member(n, i, radius) ? 1 : 0;
     }
-  }
-  const float d2 = as_float(low);
-  const int closer = low == 0 ? 0 : count_within(n, as_float(low - 1)) - copies;
-  std::uint32_t member = next_member(n, radius, {d2, -1});
-  for (int k = closer; k < rank; ++k) member = next_member(n, radius, {d2, n.index[member]});
-  return member;
+    return equally_far > rank - closer;
+  });
+  return next_member(n, radius, {d2, static_cast<std::int64_t>(index) - 1});
 }
 
 }  // namespace detail

@@ -47,7 +47,6 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinte
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm256_and_ps(a.v, b.v)}; }
-[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {_mm256_xor_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm256_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm256_sqrt_ps(a.v)}; }
@@ -76,9 +75,6 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinte
 
 /// Towards zero; |a| must stay below 2^31.
 [[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {_mm256_cvttps_epi32(a.v)}; }
-[[nodiscard]] inline F32 truncate(F32 a) noexcept {
-  return {_mm256_round_ps(a.v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC)};
-}
 
 /// To the nearest integer, ties to even (the default rounding mode).
 [[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {_mm256_cvtps_epi32(a.v)}; }

@@ -53,11 +53,10 @@ inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {a.v >= b.v}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
-[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {root(a.v)}; }
-[[nodiscard]] inline F32 abs(F32 a) noexcept { return {a.v < 0.0f ? 0.0f - a.v : a.v}; }
+[[nodiscard]] inline F32 abs(F32 a) noexcept { return {__builtin_fabsf(a.v)}; }
 [[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {a.v < b.v ? a.v : b.v}; }
 [[nodiscard]] inline F32 max(F32 a, F32 b) noexcept { return {a.v > b.v ? a.v : b.v}; }
 
@@ -82,7 +81,6 @@ inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint
 
 /// Towards zero; |a| must stay below 2^31.
 [[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {static_cast<std::int32_t>(a.v)}; }
-[[nodiscard]] inline F32 truncate(F32 a) noexcept { return {static_cast<float>(static_cast<std::int32_t>(a.v))}; }
 
 /// To the nearest integer, ties to even; |a| <= 2^22. Adding 1.5 * 2^23 leaves the integer in the low mantissa bits:
 /// the same bits on every machine, with no call into libm.

@@ -42,7 +42,7 @@ struct VoteUnit {
 struct Share {
   simd::I32 cell;           ///< index of the primary cell, times the axis' stride
   simd::I32 step;           ///< index of the partner cell minus that of the primary one; 0 where there is no partner
-  simd::I32 twice_partner;  ///< twice the partner's share in units, 0 to 1; the primary cell has the rest
+  simd::I32 twice_partner;  ///< twice the partner's share in units: 0 to 1, to 3 below zero; the rest is the cell's
   simd::Mask alone;         ///< there is no partner: only where the axis ends
 };
 
@@ -64,9 +64,13 @@ template <class Axis>
 
 template <int Factor>
 [[nodiscard]] inline simd::I32 times(simd::I32 a) noexcept {
-  if constexpr (Factor == 1) return a;
-  if constexpr (Factor < 32768) return simd::small_product(a, simd::all_int(Factor));
-  return simd::small_product(a, simd::all_int(Factor / 2)) + simd::small_product(a, simd::all_int(Factor - Factor / 2));
+  if constexpr (Factor == 1) {
+    return a;
+  } else if constexpr (Factor < 32768) {
+    return simd::small_product(a, simd::all_int(Factor));
+  } else {
+    return times<Factor / 2>(a) + times<Factor - Factor / 2>(a);
+  }
 }
 
 /// From a cell to the next one in a direction (1 or -1), around the ends.

@@ -23,7 +23,7 @@ struct SortedPoints {
 
 /// The places in the cloud of a register of points.
 template <class Index>
-[[nodiscard]] inline simd::I32 load_indices(const Index* index) noexcept {
+[[nodiscard]] inline simd::I32 load_order(const Index* index) noexcept {
   if constexpr (sizeof(Index) == sizeof(std::uint32_t)) {
     return simd::load(index);
   } else {
@@ -65,7 +65,7 @@ inline void offer_run(const SortedPoints<Index>& points, std::size_t i, std::siz
     simd::store(to.dy + size, dy, inside);
     simd::store(to.dz + size, dz, inside);
     simd::store(to.d2 + size, d2, inside);
-    simd::store(to.index + size, load_indices(order + i), inside);
+    simd::store(to.index + size, load_order(order + i), inside);
     size += inside.count;
   }
   out.found += size - out.size;
