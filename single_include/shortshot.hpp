@@ -42,6 +42,40 @@
 //
 // libm's atan2f, acosf, cbrtf and logf differ from one libm to the next; these do not, and they work on lanes.
 
+// shortshot/rounded.hpp: no a * b + c in one rounding, whatever the compiler was told.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// Hides where a number comes from: an empty assembly statement, no instruction.
+template <class Float>
+[[nodiscard]] inline Float hidden(Float number) noexcept {
+#if defined(__FMA__) || defined(__FMA4__) || defined(__AVX512F__)
+  __asm__("" : "+x"(number));
+#elif defined(__aarch64__)
+  __asm__("" : "+w"(number));
+#elif defined(__ARM_FEATURE_FMA)
+  __asm__("" : "+t"(number));
+#elif defined(__riscv_flen)
+  __asm__("" : "+f"(number));
+#endif
+  return number;
+}
+
+}  // namespace detail
+
+/// A product (a float, or a register of them), rounded as IEEE 754 says. Where the CPU has a fused multiply-add, GCC
+/// and clang may use it for a product and the sum that it goes into, which gives other bits: every product that goes
+/// into a sum must pass through here.
+template <class Float>
+[[nodiscard]] constexpr Float rounded(Float product) noexcept {
+  return __builtin_is_constant_evaluated() ? product : detail::hidden(product);
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
 // shortshot/simd.hpp: the thin lane shim. Every pass of the kernel is written once, in terms of F32, I32 and Mask; the
 // compiler's own macros choose what they are: AVX2, SSE2, NEON (aarch64) or one lane at a time.
 //
@@ -50,8 +84,7 @@
 
 #if defined(__AVX2__)
 
-// shortshot/simd_avx2.hpp: the lane shim on AVX2, 8 lanes; no fused multiply-add, which rounds differently. Included by
-// simd.hpp, which says what it must do.
+// shortshot/simd_avx2.hpp: the lane shim on AVX2, 8 lanes. Included by simd.hpp, which says what it must do.
 
 #include <immintrin.h>
 
@@ -82,10 +115,16 @@ inline void store(float* p, F32 a) noexcept { _mm256_storeu_ps(p, a.v); }
 inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v); }
 inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {_mm256_set1_ps(value)}; }
+/// value_at(k) in lane k.
+template <class Function>
+[[nodiscard, gnu::always_inline]] inline F32 from_lanes(Function value_at) noexcept {
+  return {_mm256_setr_ps(value_at(0), value_at(1), value_at(2), value_at(3), value_at(4), value_at(5), value_at(6),
+                         value_at(7))};
+}
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm256_add_ps(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {_mm256_sub_ps(a.v, b.v)}; }
-[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {_mm256_mul_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {rounded(_mm256_mul_ps(a.v, b.v))}; }
 [[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {_mm256_div_ps(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {_mm256_add_epi32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
@@ -93,6 +132,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinte
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm256_and_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {_mm256_xor_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm256_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm256_sqrt_ps(a.v)}; }
@@ -117,6 +157,8 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinte
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {_mm256_castps_si256(a.v)}; }
+/// The floats whose bits are those of a.
+[[nodiscard]] inline F32 from_bits(I32 a) noexcept { return {_mm256_castsi256_ps(a.v)}; }
 [[nodiscard]] inline F32 to_float(I32 a) noexcept { return {_mm256_cvtepi32_ps(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
@@ -147,6 +189,8 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinte
 [[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {_mm256_max_epi16(a.v, b.v)}; }
 /// For a from -2^15, b from 0, to 2^15 - 1.
 [[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {_mm256_madd_epi16(a.v, b.v)}; }
+/// For numbers from 0 to 2^31 - 1, as is the product.
+[[nodiscard]] inline I32 product(I32 a, I32 b) noexcept { return {_mm256_mullo_epi32(a.v, b.v)}; }
 [[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {_mm256_castsi256_ps(_mm256_srai_epi32(a.v, 31))}; }
 /// -1 where m, else 1.
 [[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept {
@@ -260,10 +304,15 @@ inline void store(float* p, F32 a) noexcept { _mm_storeu_ps(p, a.v); }
 inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a.v); }
 inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a.v); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {_mm_set1_ps(value)}; }
+/// value_at(k) in lane k.
+template <class Function>
+[[nodiscard, gnu::always_inline]] inline F32 from_lanes(Function value_at) noexcept {
+  return {_mm_setr_ps(value_at(0), value_at(1), value_at(2), value_at(3))};
+}
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm_add_ps(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {_mm_sub_ps(a.v, b.v)}; }
-[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {_mm_mul_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {rounded(_mm_mul_ps(a.v, b.v))}; }
 [[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {_mm_div_ps(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {_mm_add_epi32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm_cmplt_ps(a.v, b.v)}; }
@@ -271,6 +320,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpr
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm_cmpge_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {_mm_cmpneq_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm_and_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {_mm_xor_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm_sqrt_ps(a.v)}; }
@@ -295,6 +345,8 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpr
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {_mm_castps_si128(a.v)}; }
+/// The floats whose bits are those of a.
+[[nodiscard]] inline F32 from_bits(I32 a) noexcept { return {_mm_castsi128_ps(a.v)}; }
 [[nodiscard]] inline F32 to_float(I32 a) noexcept { return {_mm_cvtepi32_ps(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
@@ -321,6 +373,12 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpr
 [[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {_mm_max_epi16(a.v, b.v)}; }
 /// For a from -2^15, b from 0, to 2^15 - 1.
 [[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {_mm_madd_epi16(a.v, b.v)}; }
+/// For numbers from 0 to 2^31 - 1, as is the product.
+[[nodiscard]] inline I32 product(I32 a, I32 b) noexcept {
+  const __m128i even = _mm_mul_epu32(a.v, b.v);
+  const __m128i odd = _mm_mul_epu32(_mm_srli_epi64(a.v, 32), _mm_srli_epi64(b.v, 32));
+  return {_mm_or_si128(even, _mm_slli_epi64(odd, 32))};
+}
 [[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {_mm_castsi128_ps(_mm_srai_epi32(a.v, 31))}; }
 /// -1 where m, else 1.
 [[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept {
@@ -419,10 +477,15 @@ inline void store(float* p, F32 a) noexcept { vst1q_f32(p, a.v); }
 inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq_u32_s32(a.v)); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {vdupq_n_f32(value)}; }
+/// value_at(k) in lane k.
+template <class Function>
+[[nodiscard, gnu::always_inline]] inline F32 from_lanes(Function value_at) noexcept {
+  return {float32x4_t{value_at(0), value_at(1), value_at(2), value_at(3)}};
+}
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {vaddq_f32(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {vsubq_f32(a.v, b.v)}; }
-[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {vmulq_f32(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {rounded(vmulq_f32(a.v, b.v))}; }
 [[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {vdivq_f32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {vaddq_s32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {vcltq_f32(a.v, b.v)}; }
@@ -430,6 +493,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {vcgeq_f32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {vmvnq_u32(vceqq_f32(a.v, b.v))}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {vandq_u32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {veorq_u32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {vorrq_u32(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {vsqrtq_f32(a.v)}; }
@@ -454,6 +518,8 @@ inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {vreinterpretq_s32_f32(a.v)}; }
+/// The floats whose bits are those of a.
+[[nodiscard]] inline F32 from_bits(I32 a) noexcept { return {vreinterpretq_f32_s32(a.v)}; }
 [[nodiscard]] inline F32 to_float(I32 a) noexcept { return {vcvtq_f32_s32(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
@@ -476,6 +542,8 @@ inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq
 [[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {vmaxq_s32(a.v, b.v)}; }
 /// For a from -2^15, b from 0, to 2^15 - 1.
 [[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {vmulq_s32(a.v, b.v)}; }
+/// For numbers from 0 to 2^31 - 1, as is the product.
+[[nodiscard]] inline I32 product(I32 a, I32 b) noexcept { return {vmulq_s32(a.v, b.v)}; }
 [[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {vcltzq_s32(a.v)}; }
 /// -1 where m, else 1.
 [[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept {
@@ -590,10 +658,15 @@ inline void store(float* p, F32 a) noexcept { *p = a.v; }
 inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint32_t>(a.v); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {value}; }
+/// value_at(k) in lane k.
+template <class Function>
+[[nodiscard, gnu::always_inline]] inline F32 from_lanes(Function value_at) noexcept {
+  return {value_at(0)};
+}
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {a.v + b.v}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {a.v - b.v}; }
-[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {a.v * b.v}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {rounded(a.v * b.v)}; }
 [[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {a.v / b.v}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {a.v + b.v}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {a.v < b.v}; }
@@ -601,6 +674,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {a.v >= b.v}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
+[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {root(a.v)}; }
@@ -625,6 +699,12 @@ inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint
   std::memcpy(&bits.v, &a.v, sizeof bits.v);
   return bits;
 }
+/// The floats whose bits are those of a.
+[[nodiscard]] inline F32 from_bits(I32 a) noexcept {
+  F32 value{};
+  std::memcpy(&value.v, &a.v, sizeof value.v);
+  return value;
+}
 [[nodiscard]] inline F32 to_float(I32 a) noexcept { return {static_cast<float>(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
@@ -648,6 +728,8 @@ inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint
 [[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {a.v > b.v ? a.v : b.v}; }
 /// For a from -2^15, b from 0, to 2^15 - 1.
 [[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
+/// For numbers from 0 to 2^31 - 1, as is the product.
+[[nodiscard]] inline I32 product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
 [[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {a.v < 0}; }
 /// -1 where m, else 1.
 [[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept { return {m.v ? -1 : 1}; }
@@ -785,8 +867,10 @@ template <int UnitsPerTurn>
   std::memcpy(&m, &bits, sizeof m);
   const float s = (m - 1.0f) / (m + 1.0f);  // ln m = 2 artanh s, |s| < 0.172
   const float s2 = s * s;
-  const float artanh = s + s * s2 * (0.333333333f + s2 * (0.2f + s2 * (0.142857143f + s2 * 0.111111111f)));
-  return static_cast<float>(exponent) * 0.693147181f + 2.0f * artanh;
+  const float artanh =
+      s + rounded(s * s2 *
+                  (0.333333333f + rounded(s2 * (0.2f + rounded(s2 * (0.142857143f + rounded(s2 * 0.111111111f)))))));
+  return rounded(static_cast<float>(exponent) * 0.693147181f) + rounded(2.0f * artanh);
 }
 
 /// A number kept as the sum of two floats, the second at most 2^-7 of the first: a few bits more than one float has.
@@ -803,8 +887,8 @@ struct Sum2 {
   float root = 0.0f;
   std::memcpy(&root, &bits, sizeof root);
   for (int step = 0; step < 2; ++step) {  // Halley: to 2e-7
-    const float cube = root * root * root;
-    root = root * (cube + 2.0f * value) / (2.0f * cube + value);
+    const float cube = rounded(root * root * root);
+    root = root * (cube + rounded(2.0f * value)) / (rounded(2.0f * cube) + value);
   }
   // The cube of an 8-bit number is exact in float, and so is its distance to the value. With root = high + low:
   // value - high^3 = low (3 high^2 + 3 high low + low^2).
@@ -813,8 +897,8 @@ struct Sum2 {
   float high = 0.0f;
   std::memcpy(&high, &bits, sizeof high);
   const float low = root - high;
-  const float rest = value - high * high * high;
-  return {high, rest / (3.0f * high * (high + low) + low * low)};
+  const float rest = value - rounded(high * high * high);
+  return {high, rest / (rounded(3.0f * high * (high + low)) + rounded(low * low))};
 }
 
 /// The largest power of two not above a positive normal number.
@@ -828,7 +912,9 @@ struct Sum2 {
 }
 
 /// What length() needs to know of vectors no longer than `longest`: 1.5 * 2^23 quanta, each 2^-10 of its power of two.
-[[nodiscard]] inline float length_splitter(float longest) noexcept { return power_of_two_below(longest) * 12288.0f; }
+[[nodiscard]] inline float length_splitter(float longest) noexcept {
+  return rounded(power_of_two_below(longest) * 12288.0f);
+}
 
 /// sqrt(x^2 + y^2 + z^2), correctly rounded but for a few cases in a million. Points of a regular grid lie exactly on
 /// the borders of shells, where one bit decides which neighbouring shell gets a vote; the published code has double.
@@ -1029,6 +1115,47 @@ namespace detail {
 /// Coordinate 0, 1 or 2 of a point.
 [[nodiscard]] inline float coordinate(const Point& p, std::size_t axis) noexcept {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+/// The points of one register.
+struct PointLanes {
+  simd::F32 x, y, z;
+};
+
+/// Point index_at(k) in lane k.
+template <class Function>
+[[nodiscard, gnu::always_inline]] inline PointLanes read_points(const CloudView& cloud, Function index_at) noexcept {
+  const Float3Channel& channel = cloud.points;
+  const auto read_lanes = [&](const unsigned char* first) {
+    return simd::from_lanes([&](std::size_t lane) {
+      float value = 0.0f;
+      std::memcpy(&value, first + index_at(lane) * channel.stride_bytes, sizeof value);
+      return value;
+    });
+  };
+  return {read_lanes(channel.x), read_lanes(channel.y), read_lanes(channel.z)};
+}
+
+[[nodiscard]] inline simd::Mask is_finite(const PointLanes& p) noexcept {
+  const simd::I32 exponent = simd::all_int(0x7F800000);
+  const auto below = [&](simd::F32 v) { return (bits_of(v) & exponent) - exponent; };  // negative if v is finite
+  return is_negative(below(p.x) & below(p.y) & below(p.z));
+}
+
+/// Calls f(index, points, valid) for registers of points in order: the first one's index, and which lanes have three
+/// finite coordinates. At least one has; registers without are passed over. The view comes by value: no store that f
+/// makes can change it.
+template <class Function>
+[[gnu::always_inline]] inline void for_each_valid_register(const CloudView cloud, Function f) {
+  const std::size_t last = cloud.size - 1;
+  for (std::size_t i = 0; i < cloud.size; i += simd::lanes) {
+    const bool whole = cloud.size - i >= simd::lanes;
+    const PointLanes points =
+        whole ? read_points(cloud, [i](std::size_t lane) { return i + lane; })
+              : read_points(cloud, [=](std::size_t lane) { return i + lane < last ? i + lane : last; });
+    const simd::Mask valid = whole ? is_finite(points) : is_finite(points) & simd::first(cloud.size - i);
+    if (any(valid)) f(i, points, valid);
+  }
 }
 
 /// Calls f(index, point) for each point with three finite coordinates, in order.
@@ -1275,18 +1402,18 @@ inline constexpr std::array<float, 256> srgb_to_linear = make_srgb_to_linear();
 /// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
 struct PublishedLab {
   [[nodiscard]] static float root(float t) noexcept {
-    if (!(t > 0.008856f)) return 7.787f * t + 16.0f / 116.0f;
+    if (!(t > 0.008856f)) return rounded(7.787f * t) + 16.0f / 116.0f;
     // t^0.3333 = t^(1/3) exp(-ln t / 30000), and exp(e) = 1 + e + e^2 / 2 for |e| < 2e-4.
     const math::Sum2 cube_root = math::cbrt(t);
-    const float e = math::log(t) * (-1.0f / 30000.0f);
-    return cube_root.high + (cube_root.low + (cube_root.high + cube_root.low) * (e + 0.5f * e * e));
+    const float e = rounded(math::log(t) * (-1.0f / 30000.0f));
+    return cube_root.high + (cube_root.low + rounded((cube_root.high + cube_root.low) * (e + rounded(0.5f * e * e))));
   }
 };
 
 /// CIELAB as PCL's CSHOT computes it: the cube root above the knee, 7.87 t + 16/116 below.
 struct PclLab {
   [[nodiscard]] static float root(float t) noexcept {
-    if (!(t > 0.008856f)) return 7.87f * t + 16.0f / 116.0f;
+    if (!(t > 0.008856f)) return rounded(7.87f * t) + 16.0f / 116.0f;
     const math::Sum2 cube_root = math::cbrt(t);
     return cube_root.high + cube_root.low;
   }
@@ -1303,9 +1430,9 @@ struct RatioSteps {
   const float r = srgb_to_linear[rgb.r];
   const float g = srgb_to_linear[rgb.g];
   const float b = srgb_to_linear[rgb.b];
-  const float x = (r * 0.412453f + g * 0.357580f + b * 0.180423f) / 0.95047f;
-  const float y = r * 0.212671f + g * 0.715160f + b * 0.072169f;
-  const float z = (r * 0.019334f + g * 0.119193f + b * 0.950227f) / 1.08883f;
+  const float x = (rounded(r * 0.412453f) + rounded(g * 0.357580f) + rounded(b * 0.180423f)) / 0.95047f;
+  const float y = rounded(r * 0.212671f) + rounded(g * 0.715160f) + rounded(b * 0.072169f);
+  const float z = (rounded(r * 0.019334f) + rounded(g * 0.119193f) + rounded(b * 0.950227f)) / 1.08883f;
   return {static_cast<int>(x * 4000.0f), static_cast<int>(y * 4000.0f), static_cast<int>(z * 4000.0f)};
 }
 
@@ -1329,7 +1456,7 @@ template <class Root>
   const float fy = root(steps.y);
   const float fz = root(steps.z);
   const auto clamped = [](float value) { return value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
-  const float lightness = 116.0f * fy - 16.0f;
+  const float lightness = rounded(116.0f * fy) - 16.0f;
   return {lightness > 100.0f ? 100.0f : lightness, clamped(500.0f * (fx - fy)), clamped(200.0f * (fy - fz))};
 }
 
@@ -1392,12 +1519,14 @@ class PackedLab {
  public:
   PackedLab() = default;
   PackedLab(const Lab& color) noexcept  // NOLINT: converts like a number
-      : bits_(code(color.L * 20.0f, 2000.0f) | code((color.a + 90.0f) * (1.0f / a_step), 1023.0f) << 11 |
-              code((color.b + 108.875f) * (1.0f / b_step), 2047.0f) << 21) {}
+      : bits_(code(rounded(color.L * 20.0f), 2000.0f) |
+              code(rounded((color.a + 90.0f) * (1.0f / a_step)), 1023.0f) << 11 |
+              code(rounded((color.b + 108.875f) * (1.0f / b_step)), 2047.0f) << 21) {}
 
   operator Lab() const noexcept {  // NOLINT: converts like a number
-    return {static_cast<float>(bits_ & 2047u) * 0.05f, static_cast<float>(bits_ >> 11 & 1023u) * a_step - 90.0f,
-            static_cast<float>(bits_ >> 21) * b_step - 108.875f};
+    return {rounded(static_cast<float>(bits_ & 2047u) * 0.05f),
+            rounded(static_cast<float>(bits_ >> 11 & 1023u) * a_step) - 90.0f,
+            rounded(static_cast<float>(bits_ >> 21) * b_step) - 108.875f};
   }
 
   /// The colours at lab[index[k]], for all lanes: what operator Lab gives.
@@ -1574,7 +1703,7 @@ struct LogRadius {
           const float log_of_distance = math::log(distance > 1e-30f ? distance : 1e-30f);
           const float p = static_cast<float>(Shells - 1) * (log_of_distance - log_of_ratio) / -log_of_ratio + 1.0f;
           // Below zero, what counts is the rest of a shell: the cell is the innermost one anyway.
-          return (p < 0.0f ? p - static_cast<float>(static_cast<int>(p)) : p) * shell;
+          return rounded((p < 0.0f ? p - static_cast<float>(static_cast<int>(p)) : p) * shell);
         },
         u);
   }
@@ -2092,7 +2221,7 @@ inline void offer(Neighborhood& out, const Point& p, std::uint32_t index, const 
   const float dx = p.x - center.x;
   const float dy = p.y - center.y;
   const float dz = p.z - center.z;
-  const float d2 = (dx * dx + dy * dy) + dz * dz;
+  const float d2 = (rounded(dx * dx) + rounded(dy * dy)) + rounded(dz * dz);
   if (!(d2 < radius_squared)) return;
   if (out.size < out.capacity) {
     out.dx[out.size] = dx;
@@ -2220,6 +2349,8 @@ template <class Predicate>
 // the exactly rounded square root, 192 bytes of stack on a Cortex-M7. Eigen's solvers are as good on a PC, but the
 // direct one calls atan2, cos and sin (other bits with every libm) and both cost more flash than the rest of the frame.
 
+#include <initializer_list>
+
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
@@ -2235,43 +2366,67 @@ struct Eigen3 {
   float vectors[3][3];
 };
 
-/// One Jacobi rotation in the plane (p, q) that makes a[p][q] zero; the columns of v collect the rotations.
-inline void rotate(float (&a)[3][3], float (&v)[3][3], int p, int q) noexcept {
-  if (a[p][q] == 0.0f) return;
-  const float theta = (a[q][q] - a[p][p]) / (2.0f * a[p][q]);
-  const float magnitude = theta < 0.0f ? -theta : theta;
-  if (magnitude > 1e18f) return;  // turns by less than any component's last bit; half of all rotations, at the end
-  // tan of the rotation angle; theta squared would overflow where the angle is below float resolution anyway.
-  const float tangent =
-      magnitude > 1e9f ? 0.5f / magnitude : 1.0f / (magnitude + simd::root(magnitude * magnitude + 1.0f));
-  const float t = theta < 0.0f ? -tangent : tangent;
-  const float c = 1.0f / simd::root(t * t + 1.0f);
+/// Tangent of the angle, at most an eighth of a turn, by which the plane of two diagonal entries `gap` apart turns to
+/// make the entry `off` between them zero; 0 if that is not worth while: it moves no component by half its last bit.
+[[nodiscard]] inline float tangent(float gap, float off) noexcept {
+  const float wide = gap < 0.0f ? 0.0f - gap : gap;
+  const float high = off < 0.0f ? 0.0f - off : off;
+  if (high - 1e-12f <= rounded(wide * 7e-9f)) return 0.0f;
+  if (high * 8192.0f < wide) return off / gap;  // float knows no better; most rotations but the first few
+  const float root = simd::root(rounded(gap * gap) + rounded(4.0f * (off * off)));
+  return (off + off) / (gap < 0.0f ? gap - root : gap + root);
+}
+
+/// One Jacobi rotation in the plane (p, q) that makes a[p][q] zero; the columns of v collect the rotations. Entries are
+/// at most 2. Returns whether it was worth while.
+inline bool rotate(float (&a)[3][3], float (&v)[3][3], int p, int q) noexcept {
+  const float t = tangent(a[q][q] - a[p][p], a[p][q]);
+  if (t == 0.0f) return false;
+  const float square = rounded(t * t) + 1.0f;
+  const float c = square == 1.0f ? 1.0f : 1.0f / simd::root(square);
   const float s = t * c;
   const int r = 3 - p - q;  // the row that is not rotated
 
-  a[p][p] = a[p][p] - t * a[p][q];
-  a[q][q] = a[q][q] + t * a[p][q];
+  const float moved = rounded(t * a[p][q]);
+  a[p][p] = a[p][p] - moved;
+  a[q][q] = a[q][q] + moved;
   a[p][q] = a[q][p] = 0.0f;
   const float rp = a[r][p];
   const float rq = a[r][q];
-  a[r][p] = a[p][r] = c * rp - s * rq;
-  a[r][q] = a[q][r] = s * rp + c * rq;
+  a[r][p] = a[p][r] = rounded(c * rp) - rounded(s * rq);
+  a[r][q] = a[q][r] = rounded(s * rp) + rounded(c * rq);
   for (int k = 0; k < 3; ++k) {
     const float vp = v[k][p];
     const float vq = v[k][q];
-    v[k][p] = c * vp - s * vq;
-    v[k][q] = s * vp + c * vq;
+    v[k][p] = rounded(c * vp) - rounded(s * vq);
+    v[k][q] = rounded(s * vp) + rounded(c * vq);
   }
+  return true;
+}
+
+/// The largest power of two not above the largest entry.
+[[nodiscard]] inline float scale_of(const Symmetric3& m) noexcept {
+  float largest = 1.17549435e-38f;
+  for (const float entry : {m.xx, m.xy, m.xz, m.yy, m.yz, m.zz}) {
+    const float size = entry < 0.0f ? 0.0f - entry : entry;
+    largest = size > largest ? size : largest;
+  }
+  return math::power_of_two_below(largest);
 }
 
 /// Eigen-decomposition of m. Converges quadratically: six sweeps are twice what any float matrix was seen to need.
 [[nodiscard]] inline Eigen3 decompose(const Symmetric3& m) noexcept {
-  float a[3][3] = {{m.xx, m.xy, m.xz}, {m.xy, m.yy, m.yz}, {m.xz, m.yz, m.zz}};
+  const float scale = scale_of(m);
+  const float unit = 1.0f / scale;
+  float a[3][3] = {{m.xx * unit, m.xy * unit, m.xz * unit},
+                   {m.xy * unit, m.yy * unit, m.yz * unit},
+                   {m.xz * unit, m.yz * unit, m.zz * unit}};
   float v[3][3] = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
-  for (int sweep = 0; sweep < 6; ++sweep) {
-    rotate(a, v, 0, 1);
-    rotate(a, v, 0, 2);
-    rotate(a, v, 1, 2);
+  bool turned = true;
+  for (int sweep = 0; sweep < 6 && turned; ++sweep) {
+    turned = rotate(a, v, 0, 1);
+    turned = rotate(a, v, 0, 2) || turned;
+    turned = rotate(a, v, 1, 2) || turned;
   }
 
   int order[3] = {0, 1, 2};
@@ -2288,9 +2443,9 @@ inline void rotate(float (&a)[3][3], float (&v)[3][3], int p, int q) noexcept {
   Eigen3 result;
   for (int i = 0; i < 3; ++i) {
     const int column = order[i];
-    const float length =
-        simd::root(v[0][column] * v[0][column] + v[1][column] * v[1][column] + v[2][column] * v[2][column]);
-    result.values[i] = a[column][column];
+    const auto square = [&](int k) { return rounded(v[k][column] * v[k][column]); };
+    const float length = simd::root(square(0) + square(1) + square(2));
+    result.values[i] = a[column][column] * scale;
     for (int k = 0; k < 3; ++k) result.vectors[i][k] = v[k][column] / length;
   }
   return result;
@@ -2315,7 +2470,7 @@ inline namespace SHORTSHOT_ISA {
 inline constexpr int min_frame_neighbors = 5;
 
 [[nodiscard]] inline float dot(const float (&a)[3], const float (&b)[3]) noexcept {
-  return (a[0] * b[0] + a[2] * b[2]) + a[1] * b[1];
+  return (rounded(a[0] * b[0]) + rounded(a[2] * b[2])) + rounded(a[1] * b[1]);
 }
 
 /// Is this a frame one can describe in: finite, and orthonormal within 1e-3?
@@ -2350,16 +2505,19 @@ struct Census {
 [[nodiscard]] inline Census take_census(const Neighborhood& n, Radius radius) noexcept {
   const simd::F32 zero = simd::all(0.0f);
   simd::F32 farthest = zero;
-  simd::I32 inside{}, apart{};
+  simd::I32 inside{}, copies{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
     const simd::Mask near = within(v, radius);
     farthest = simd::max(farthest, keep(near, v.d2));
     inside = increment(near, inside);
-    apart = increment(near & ((v.dx != zero) | (v.dy != zero) | (v.dz != zero)), apart);
+    if (any(zero >= v.d2)) {  // seldom: the key point itself, and whatever is so close that its square is lost
+      const simd::Mask apart = (v.dx != zero) | (v.dy != zero) | (v.dz != zero);
+      copies = increment(near ^ (near & apart), copies);
+    }
   }
-  const int members = sum(apart);
-  return {simd::largest(farthest), members, sum(inside) - members};
+  const int not_members = sum(copies);
+  return {simd::largest(farthest), sum(inside) - not_members, not_members};
 }
 
 /// How members are brought to fixed point: coordinates times `unit`, a power of two (so that nothing is rounded) that
@@ -2485,7 +2643,7 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& c
 
   const detail::Eigen3 eigen = detail::decompose(detail::weighted_scatter(n, radius, census.farthest_d2));
   // What float can tell apart, and what the rounding of the members to integers may have moved.
-  const float resolution = 1e-6f * eigen.values[2] + 0.5f * static_cast<float>(census.members);
+  const float resolution = rounded(1e-6f * eigen.values[2]) + rounded(0.5f * static_cast<float>(census.members));
   if (!(eigen.values[2] - eigen.values[1] > resolution && eigen.values[1] - eigen.values[0] > resolution)) {
     return Status::ambiguous_frame;
   }
@@ -2502,9 +2660,9 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& c
   } else if (towards < 0.0f) {
     detail::negate(frame.z);
   }
-  frame.y[0] = frame.z[1] * frame.x[2] - frame.z[2] * frame.x[1];
-  frame.y[1] = frame.z[2] * frame.x[0] - frame.z[0] * frame.x[2];
-  frame.y[2] = frame.z[0] * frame.x[1] - frame.z[1] * frame.x[0];
+  frame.y[0] = rounded(frame.z[1] * frame.x[2]) - rounded(frame.z[2] * frame.x[1]);
+  frame.y[1] = rounded(frame.z[2] * frame.x[0]) - rounded(frame.z[0] * frame.x[2]);
+  frame.y[2] = rounded(frame.z[0] * frame.x[1]) - rounded(frame.z[1] * frame.x[0]);
   return Status::ok;
 }
 
@@ -3027,19 +3185,23 @@ struct Extent {
 
 /// Extent of the valid points; returns how many there are.
 [[nodiscard]] inline std::size_t measure(const CloudView& cloud, Extent& extent) noexcept {
-  std::size_t valid = 0;
   constexpr float most = 3.402823466e38f;
-  Extent e{{most, most, most}, {-most, -most, -most}};  // a local: it stays in registers
-  for_each_valid(cloud, [&](std::size_t, const Point& p) {
+  simd::F32 low[3] = {simd::all(most), simd::all(most), simd::all(most)};
+  simd::F32 high[3] = {simd::all(-most), simd::all(-most), simd::all(-most)};
+  simd::I32 valid_points{};
+  for_each_valid_register(cloud, [&](std::size_t, const PointLanes& p, simd::Mask valid) {
+    const simd::F32 v[3] = {p.x, p.y, p.z};
     unroll<3>([&](auto axis) {
-      const float v = coordinate(p, axis);
-      e.low[axis] = v < e.low[axis] ? v : e.low[axis];
-      e.high[axis] = v > e.high[axis] ? v : e.high[axis];
+      low[axis] = min(select(valid, v[axis], low[axis]), low[axis]);
+      high[axis] = max(select(valid, v[axis], high[axis]), high[axis]);
     });
-    ++valid;
+    valid_points = increment(valid, valid_points);
   });
-  extent = e;
-  return valid;
+  for (int axis = 0; axis < 3; ++axis) {
+    extent.low[axis] = 0.0f - simd::largest(simd::all(0.0f) - low[axis]);
+    extent.high[axis] = simd::largest(high[axis]);
+  }
+  return static_cast<std::uint32_t>(sum(valid_points));
 }
 
 /// First and last cell of a range, both inside the box.
@@ -3073,7 +3235,7 @@ struct GridBox {
   [[nodiscard]] float gap(int axis, float v, std::uint32_t other) const noexcept {
     const std::uint32_t own = cell(axis, v);
     if (other == own) return 0.0f;
-    const float near_edge = low[axis] + static_cast<float>(other < own ? other + 1 : other) * cell_size;
+    const float near_edge = low[axis] + rounded(static_cast<float>(other < own ? other + 1 : other) * cell_size);
     const float distance = (other < own ? v - near_edge : near_edge - v) - rounding[axis];
     return distance > 0.0f ? distance : 0.0f;
   }
@@ -3084,6 +3246,16 @@ struct GridBox {
 
   [[nodiscard]] std::size_t cell_of(const Point& p) const noexcept {
     return row(cell(1, p.y), cell(2, p.z)) + cell(0, p.x);
+  }
+
+  /// The cells of a register of points; those of points that are not valid mean nothing.
+  [[nodiscard]] simd::I32 cells_of(const PointLanes& p) const noexcept {
+    const auto along = [this](int axis, simd::F32 v) {
+      const simd::F32 position = (v - simd::all(low[axis])) * simd::all(cells_per_metre);
+      return truncate_to_int(min(max(position, simd::all(0.0f)), simd::all(last[axis])));
+    };
+    const auto stride = [this](int axis) { return simd::all_int(static_cast<std::int32_t>(dims[axis])); };
+    return product(product(along(2, p.z), stride(1)) + along(1, p.y), stride(0)) + along(0, p.x);
   }
 
   /// Cells of half the size, over the same box.
@@ -3135,8 +3307,8 @@ template <class Index>
   std::size_t above = slices[last];
   for (; below <= valid / 128 && first < last; below += slices[first]) ++first;
   for (; above <= valid / 128 && first < last; above += slices[last]) --last;
-  extent.low[axis] = low + static_cast<float>(first) * width;
-  extent.high[axis] = low + static_cast<float>(last + 1) * width;
+  extent.low[axis] = low + rounded(static_cast<float>(first) * width);
+  extent.high[axis] = low + rounded(static_cast<float>(last + 1) * width);
   return 2 * (last + 1 - first) <= count;
 }
 
@@ -3298,27 +3470,22 @@ class Grid {
   /// The second half, a counting sort: count per cell, turn counts into ends of the cells before, and let each placed
   /// point move its cell's end forward to where it belongs.
   void sort(const Memory& memory) const noexcept {
-    const GridBox box = box_;  // copies that no store can change stay in registers
-    const Memory to = memory;
-    const std::size_t cells = box.cells();
+    const Memory to = memory;  // a copy that no store can change stays in registers; so below
+    const std::size_t cells = box_.cells();
+    const bool roomy = to.xyz != nullptr && points_ >= 2 * simd::lanes;
+    const CellNotes notes{roomy ? to.xyz : nullptr, points_};
+    if (roomy) note_cells(notes);
     for (std::size_t c = 0; c < cells; ++c) to.cell_end[c] = 0;
-    for_each_valid(cloud_, [&](std::size_t, const Point& p) { ++to.cell_end[box.cell_of(p)]; });
+    for_each_cell(notes, [&](std::size_t, std::size_t cell) { ++to.cell_end[cell]; });
     Index begin = 0;
     for (std::size_t c = 0; c < cells; ++c) {
       const Index count = to.cell_end[c];
       to.cell_end[c] = begin;
       begin = static_cast<Index>(begin + count);
     }
-    float* const x = to.xyz;
-    const std::size_t n = points_;
-    for_each_valid(cloud_, [&](std::size_t index, const Point& p) {
-      const std::size_t place = to.cell_end[box.cell_of(p)]++;
-      to.order[place] = static_cast<Index>(index);
-      if (x == nullptr) return;
-      x[place] = p.x;
-      x[n + place] = p.y;
-      x[2 * n + place] = p.z;
-    });
+    for_each_cell(
+        notes, [&](std::size_t index, std::size_t cell) { to.order[to.cell_end[cell]++] = static_cast<Index>(index); });
+    if (to.xyz != nullptr) copy_points(to.order, to.xyz);
   }
 
   [[nodiscard]] Status status() const noexcept {
@@ -3335,7 +3502,7 @@ class Grid {
     if (!is_finite(center)) return Status::ok;
     Neighborhood found = out;
     // The margin covers the rounding of d2, of the gaps and of the chord: each row gets all cells it needs.
-    const float reach = radius.value * 1.000002f;
+    const float reach = rounded(radius.value * 1.000002f);
     const CellRange y = box_.range(1, center.y, reach);
     const CellRange z = box_.range(2, center.z, reach);
     for (std::uint32_t cz = z.first; cz <= z.last; ++cz) {
@@ -3343,7 +3510,7 @@ class Grid {
       for (std::uint32_t cy = y.first; cy <= y.last; ++cy) {
         const float gap_y = box_.gap(1, center.y, cy);
         // Half the chord that the sphere can have in common with this row of cells, squared.
-        const float chord2 = (reach * reach - gap_y * gap_y) - gap_z * gap_z;
+        const float chord2 = (rounded(reach * reach) - rounded(gap_y * gap_y)) - rounded(gap_z * gap_z);
         if (!(chord2 >= 0.0f)) continue;
         const CellRange x = box_.range(0, center.x, simd::root(chord2));
         const std::size_t row = box_.row(cy, cz);
@@ -3370,6 +3537,67 @@ class Grid {
     box_ = fit_box(cloud_, extent, valid, cell_size, memory.cell_end, memory.cell_capacity);
     points_ = valid;
     return Status::ok;
+  }
+
+  /// The cell of each valid point and its place in the cloud, so that cells are worked out once: integers, kept where
+  /// the coordinates will be. The cells are the first third; the places end a register's length before the last
+  /// third does, because lanes are packed by stores of whole registers.
+  struct CellNotes {
+    float* cells;  ///< null if there is no room
+    std::size_t size;
+    [[nodiscard]] float* places() const noexcept { return cells + 2 * size - simd::lanes; }
+  };
+
+  void note_cells(const CellNotes& notes) const noexcept {
+    const GridBox box = box_;
+    float* cell = notes.cells;
+    float* place = notes.places();
+    std::uint32_t lane_numbers[simd::lanes];
+    for (std::uint32_t k = 0; k < simd::lanes; ++k) lane_numbers[k] = k;
+    const simd::I32 lane = simd::load(lane_numbers);
+    for_each_valid_register(cloud_, [&](std::size_t i, const PointLanes& points, simd::Mask valid) {
+      const simd::Packing packing = simd::packing(valid);
+      const simd::I32 index = simd::all_int(static_cast<std::int32_t>(i)) + lane;
+      simd::store(cell, simd::from_bits(box.cells_of(points)), packing);
+      simd::store(place, simd::from_bits(index), packing);
+      cell += packing.count;
+      place += packing.count;
+    });
+  }
+
+  /// Calls f(index, cell) for each valid point, in order.
+  template <class Function>
+  void for_each_cell(const CellNotes& notes, Function f) const noexcept {
+    if (notes.cells == nullptr) {
+      const GridBox box = box_;
+      for_each_valid(cloud_, [&](std::size_t index, const Point& p) { f(index, box.cell_of(p)); });
+      return;
+    }
+    const auto integer = [](const float* note) {
+      std::uint32_t bits = 0;
+      std::memcpy(&bits, note, sizeof bits);
+      return bits;
+    };
+    const float* const places = notes.places();
+    for (std::size_t k = 0; k < notes.size; ++k) f(integer(places + k), integer(notes.cells + k));
+  }
+
+  /// The points' coordinates, in their new order.
+  void copy_points(const Index* order, float* xyz) const noexcept {
+    const std::size_t n = points_;
+    std::size_t i = 0;
+    for (; i + simd::lanes <= n; i += simd::lanes) {
+      const PointLanes p = read_points(cloud_, [&](std::size_t lane) { return order[i + lane]; });
+      simd::store(xyz + i, p.x);
+      simd::store(xyz + n + i, p.y);
+      simd::store(xyz + 2 * n + i, p.z);
+    }
+    for (; i < n; ++i) {
+      const Point p = point(cloud_, order[i]);
+      xyz[i] = p.x;
+      xyz[n + i] = p.y;
+      xyz[2 * n + i] = p.z;
+    }
   }
 
   /// cell_end[c] is where cell c ends in `order`; it begins where the cell before it ends.
@@ -3513,7 +3741,7 @@ class OrganizedSearch {
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
-    const float reach = radius.value * 1.000001f;  // covers the rounding of d2
+    const float reach = rounded(radius.value * 1.000001f);  // covers the rounding of d2
     const detail::PixelRange columns = window(columns_, center.x, center.z, reach, cloud_.width);
     const detail::PixelRange rows = window(rows_, center.y, center.z, reach, cloud_.height);
     for (std::size_t v = rows.first; v < rows.last; ++v) {
@@ -3534,10 +3762,10 @@ class OrganizedSearch {
     if (!(near * far > 0.0f)) return {0, pixels};
     const float corners[4] = {(center - reach) / near, (center - reach) / far, (center + reach) / near,
                               (center + reach) / far};
-    float low = p.focal * corners[0] + p.center;
+    float low = rounded(p.focal * corners[0]) + p.center;
     float high = low;
     for (const float corner : corners) {
-      const float pixel = p.focal * corner + p.center;
+      const float pixel = rounded(p.focal * corner) + p.center;
       low = pixel < low ? pixel : low;
       high = pixel > high ? pixel : high;
     }
@@ -3606,17 +3834,17 @@ class OrganizedSearch {
       mean_pixel += (pixel - mean_pixel) / count;
     }
     void add_to_slope(float slope, float pixel) noexcept {
-      variance += (slope - mean_slope) * (slope - mean_slope);
-      covariance += (slope - mean_slope) * (pixel - mean_pixel);
+      variance += rounded((slope - mean_slope) * (slope - mean_slope));
+      covariance += rounded((slope - mean_slope) * (pixel - mean_pixel));
     }
     [[nodiscard]] detail::Projection projection() const noexcept {
       const float focal = variance > 0.0f ? covariance / variance : 0.0f;
-      return {focal, mean_pixel - focal * mean_slope, 0.0f};
+      return {focal, mean_pixel - rounded(focal * mean_slope), 0.0f};
     }
   };
 
   static void widen(detail::Projection& p, float slope, float pixel) noexcept {
-    const float deviation = pixel - (p.focal * slope + p.center);
+    const float deviation = pixel - (rounded(p.focal * slope) + p.center);
     const float magnitude = deviation < 0.0f ? 0.0f - deviation : deviation;
     if (!(magnitude <= p.error)) p.error = magnitude;
   }
@@ -3636,11 +3864,11 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
 /// True if this translation unit's arithmetic rounds every operation by itself, as the same bits on every machine need.
-/// False where the compiler fuses a * b + c into one rounding (wherever the CPU can, GCC's default: compile with
-/// -ffp-contract=off), or regroups sums and ignores NaN (-ffast-math, which the library does not support). Descriptors
-/// are then still descriptors, but may differ in their last bits from those of other builds; under -ffast-math, NaN
-/// points may be taken for neighbours. All of a program's translation units that include the library need the flag.
-/// No allocation, reentrant.
+/// GCC and clang are kept from fusing a * b + c into one rounding by rounded() wherever their CPUs can; other compilers
+/// and CPUs may need -ffp-contract=off. False where something is fused nevertheless, or where sums are regrouped and
+/// NaN ignored (-ffast-math, which the library does not support). Descriptors are then still descriptors, but may
+/// differ in their last bits from those of other builds; under -ffast-math, NaN points may be taken for neighbours. It
+/// speaks for the flags of the translation unit that calls it. No allocation, reentrant.
 [[nodiscard]] inline bool self_check() noexcept {
   // Volatile: what is computed while compiling says nothing about the program.
   volatile float read_one_ulp_above = 1.00024414f;    // 1 + 2^-12: its square needs 25 bits
@@ -3655,7 +3883,7 @@ inline namespace SHORTSHOT_ISA {
   const float scalar_large = read_large;
 
   const bool unfused_lanes = !(simd::largest(simd::abs(a * a - square)) > 0.0f);
-  const bool unfused_scalar = scalar_a * scalar_a - read_square_in_float == 0.0f;
+  const bool unfused_scalar = rounded(scalar_a * scalar_a) - read_square_in_float == 0.0f;
   const bool ungrouped_lanes = !(simd::largest((small + large) - large) > 0.0f);
   const bool ungrouped_scalar = (read_small + scalar_large) - scalar_large == 0.0f;
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
@@ -4040,7 +4268,7 @@ inline namespace SHORTSHOT_ISA {
     const float dx = p.x / leaf - candidate.voxel[0] - 0.5f;
     const float dy = p.y / leaf - candidate.voxel[1] - 0.5f;
     const float dz = p.z / leaf - candidate.voxel[2] - 0.5f;
-    candidate.d2 = (dx * dx + dy * dy) + dz * dz;
+    candidate.d2 = (rounded(dx * dx) + rounded(dy * dy)) + rounded(dz * dz);
     candidates.push_back(candidate);
   }
   if (candidates.empty()) return Status::empty_cloud;

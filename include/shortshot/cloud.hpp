@@ -7,6 +7,7 @@
 
 #include "config.hpp"
 #include "math.hpp"
+#include "simd.hpp"
 #include "status.hpp"
 
 namespace shortshot {
@@ -130,6 +131,47 @@ namespace detail {
 /// Coordinate 0, 1 or 2 of a point.
 [[nodiscard]] inline float coordinate(const Point& p, std::size_t axis) noexcept {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+/// The points of one register.
+struct PointLanes {
+  simd::F32 x, y, z;
+};
+
+/// Point index_at(k) in lane k.
+template <class Function>
+[[nodiscard, gnu::always_inline]] inline PointLanes read_points(const CloudView& cloud, Function index_at) noexcept {
+  const Float3Channel& channel = cloud.points;
+  const auto read_lanes = [&](const unsigned char* first) {
+    return simd::from_lanes([&](std::size_t lane) {
+      float value = 0.0f;
+      std::memcpy(&value, first + index_at(lane) * channel.stride_bytes, sizeof value);
+      return value;
+    });
+  };
+  return {read_lanes(channel.x), read_lanes(channel.y), read_lanes(channel.z)};
+}
+
+[[nodiscard]] inline simd::Mask is_finite(const PointLanes& p) noexcept {
+  const simd::I32 exponent = simd::all_int(0x7F800000);
+  const auto below = [&](simd::F32 v) { return (bits_of(v) & exponent) - exponent; };  // negative if v is finite
+  return is_negative(below(p.x) & below(p.y) & below(p.z));
+}
+
+/// Calls f(index, points, valid) for registers of points in order: the first one's index, and which lanes have three
+/// finite coordinates. At least one has; registers without are passed over. The view comes by value: no store that f
+/// makes can change it.
+template <class Function>
+[[gnu::always_inline]] inline void for_each_valid_register(const CloudView cloud, Function f) {
+  const std::size_t last = cloud.size - 1;
+  for (std::size_t i = 0; i < cloud.size; i += simd::lanes) {
+    const bool whole = cloud.size - i >= simd::lanes;
+    const PointLanes points =
+        whole ? read_points(cloud, [i](std::size_t lane) { return i + lane; })
+              : read_points(cloud, [=](std::size_t lane) { return i + lane < last ? i + lane : last; });
+    const simd::Mask valid = whole ? is_finite(points) : is_finite(points) & simd::first(cloud.size - i);
+    if (any(valid)) f(i, points, valid);
+  }
 }
 
 /// Calls f(index, point) for each point with three finite coordinates, in order.

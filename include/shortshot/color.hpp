@@ -12,6 +12,7 @@
 #include "cloud.hpp"
 #include "config.hpp"
 #include "math.hpp"
+#include "rounded.hpp"
 #include "simd.hpp"
 
 namespace shortshot {
@@ -73,18 +74,18 @@ inline constexpr std::array<float, 256> srgb_to_linear = make_srgb_to_linear();
 /// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
 struct PublishedLab {
   [[nodiscard]] static float root(float t) noexcept {
-    if (!(t > 0.008856f)) return 7.787f * t + 16.0f / 116.0f;
+    if (!(t > 0.008856f)) return rounded(7.787f * t) + 16.0f / 116.0f;
     // t^0.3333 = t^(1/3) exp(-ln t / 30000), and exp(e) = 1 + e + e^2 / 2 for |e| < 2e-4.
     const math::Sum2 cube_root = math::cbrt(t);
-    const float e = math::log(t) * (-1.0f / 30000.0f);
-    return cube_root.high + (cube_root.low + (cube_root.high + cube_root.low) * (e + 0.5f * e * e));
+    const float e = rounded(math::log(t) * (-1.0f / 30000.0f));
+    return cube_root.high + (cube_root.low + rounded((cube_root.high + cube_root.low) * (e + rounded(0.5f * e * e))));
   }
 };
 
 /// CIELAB as PCL's CSHOT computes it: the cube root above the knee, 7.87 t + 16/116 below.
 struct PclLab {
   [[nodiscard]] static float root(float t) noexcept {
-    if (!(t > 0.008856f)) return 7.87f * t + 16.0f / 116.0f;
+    if (!(t > 0.008856f)) return rounded(7.87f * t) + 16.0f / 116.0f;
     const math::Sum2 cube_root = math::cbrt(t);
     return cube_root.high + cube_root.low;
   }
@@ -101,9 +102,9 @@ struct RatioSteps {
   const float r = srgb_to_linear[rgb.r];
   const float g = srgb_to_linear[rgb.g];
   const float b = srgb_to_linear[rgb.b];
-  const float x = (r * 0.412453f + g * 0.357580f + b * 0.180423f) / 0.95047f;
-  const float y = r * 0.212671f + g * 0.715160f + b * 0.072169f;
-  const float z = (r * 0.019334f + g * 0.119193f + b * 0.950227f) / 1.08883f;
+  const float x = (rounded(r * 0.412453f) + rounded(g * 0.357580f) + rounded(b * 0.180423f)) / 0.95047f;
+  const float y = rounded(r * 0.212671f) + rounded(g * 0.715160f) + rounded(b * 0.072169f);
+  const float z = (rounded(r * 0.019334f) + rounded(g * 0.119193f) + rounded(b * 0.950227f)) / 1.08883f;
   return {static_cast<int>(x * 4000.0f), static_cast<int>(y * 4000.0f), static_cast<int>(z * 4000.0f)};
 }
 
@@ -127,7 +128,7 @@ template <class Root>
   const float fy = root(steps.y);
   const float fz = root(steps.z);
   const auto clamped = [](float value) { return value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
-  const float lightness = 116.0f * fy - 16.0f;
+  const float lightness = rounded(116.0f * fy) - 16.0f;
   return {lightness > 100.0f ? 100.0f : lightness, clamped(500.0f * (fx - fy)), clamped(200.0f * (fy - fz))};
 }
 

@@ -8,6 +8,7 @@
 #include "math.hpp"
 #include "neighborhood.hpp"
 #include "ranking.hpp"
+#include "rounded.hpp"
 #include "simd.hpp"
 #include "status.hpp"
 #include "symmetric_eigen.hpp"
@@ -27,7 +28,7 @@ inline namespace SHORTSHOT_ISA {
 inline constexpr int min_frame_neighbors = 5;
 
 [[nodiscard]] inline float dot(const float (&a)[3], const float (&b)[3]) noexcept {
-  return (a[0] * b[0] + a[2] * b[2]) + a[1] * b[1];
+  return (rounded(a[0] * b[0]) + rounded(a[2] * b[2])) + rounded(a[1] * b[1]);
 }
 
 /// Is this a frame one can describe in: finite, and orthonormal within 1e-3?
@@ -62,16 +63,19 @@ struct Census {
 [[nodiscard]] inline Census take_census(const Neighborhood& n, Radius radius) noexcept {
   const simd::F32 zero = simd::all(0.0f);
   simd::F32 farthest = zero;
-  simd::I32 inside{}, apart{};
+  simd::I32 inside{}, copies{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
     const simd::Mask near = within(v, radius);
     farthest = simd::max(farthest, keep(near, v.d2));
     inside = increment(near, inside);
-    apart = increment(near & ((v.dx != zero) | (v.dy != zero) | (v.dz != zero)), apart);
+    if (any(zero >= v.d2)) {  // seldom: the key point itself, and whatever is so close that its square is lost
+      const simd::Mask apart = (v.dx != zero) | (v.dy != zero) | (v.dz != zero);
+      copies = increment(near ^ (near & apart), copies);
+    }
   }
-  const int members = sum(apart);
-  return {simd::largest(farthest), members, sum(inside) - members};
+  const int not_members = sum(copies);
+  return {simd::largest(farthest), sum(inside) - not_members, not_members};
 }
 
 /// How members are brought to fixed point: coordinates times `unit`, a power of two (so that nothing is rounded) that
@@ -197,7 +201,7 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& c
 
   const detail::Eigen3 eigen = detail::decompose(detail::weighted_scatter(n, radius, census.farthest_d2));
   // What float can tell apart, and what the rounding of the members to integers may have moved.
-  const float resolution = 1e-6f * eigen.values[2] + 0.5f * static_cast<float>(census.members);
+  const float resolution = rounded(1e-6f * eigen.values[2]) + rounded(0.5f * static_cast<float>(census.members));
   if (!(eigen.values[2] - eigen.values[1] > resolution && eigen.values[1] - eigen.values[0] > resolution)) {
     return Status::ambiguous_frame;
   }
@@ -214,9 +218,9 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& c
   } else if (towards < 0.0f) {
     detail::negate(frame.z);
   }
-  frame.y[0] = frame.z[1] * frame.x[2] - frame.z[2] * frame.x[1];
-  frame.y[1] = frame.z[2] * frame.x[0] - frame.z[0] * frame.x[2];
-  frame.y[2] = frame.z[0] * frame.x[1] - frame.z[1] * frame.x[0];
+  frame.y[0] = rounded(frame.z[1] * frame.x[2]) - rounded(frame.z[2] * frame.x[1]);
+  frame.y[1] = rounded(frame.z[2] * frame.x[0]) - rounded(frame.z[0] * frame.x[2]);
+  frame.y[2] = rounded(frame.z[0] * frame.x[1]) - rounded(frame.z[1] * frame.x[0]);
   return Status::ok;
 }
 

@@ -5,6 +5,7 @@
 
 #include "config.hpp"
 #include "math.hpp"
+#include "rounded.hpp"
 #include "simd.hpp"
 
 namespace shortshot {
@@ -56,7 +57,7 @@ struct LogRadius {
           const float log_of_distance = math::log(distance > 1e-30f ? distance : 1e-30f);
           const float p = static_cast<float>(Shells - 1) * (log_of_distance - log_of_ratio) / -log_of_ratio + 1.0f;
           // Below zero, what counts is the rest of a shell: the cell is the innermost one anyway.
-          return (p < 0.0f ? p - static_cast<float>(static_cast<int>(p)) : p) * shell;
+          return rounded((p < 0.0f ? p - static_cast<float>(static_cast<int>(p)) : p) * shell);
         },
         u);
   }

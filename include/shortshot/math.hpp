@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "rounded.hpp"
 #include "simd.hpp"
 
 namespace shortshot {
@@ -69,8 +70,10 @@ template <int UnitsPerTurn>
   std::memcpy(&m, &bits, sizeof m);
   const float s = (m - 1.0f) / (m + 1.0f);  // ln m = 2 artanh s, |s| < 0.172
   const float s2 = s * s;
-  const float artanh = s + s * s2 * (0.333333333f + s2 * (0.2f + s2 * (0.142857143f + s2 * 0.111111111f)));
-  return static_cast<float>(exponent) * 0.693147181f + 2.0f * artanh;
+  const float artanh =
+      s + rounded(s * s2 *
+                  (0.333333333f + rounded(s2 * (0.2f + rounded(s2 * (0.142857143f + rounded(s2 * 0.111111111f)))))));
+  return rounded(static_cast<float>(exponent) * 0.693147181f) + rounded(2.0f * artanh);
 }
 
 /// A number kept as the sum of two floats, the second at most 2^-7 of the first: a few bits more than one float has.
@@ -87,8 +90,8 @@ struct Sum2 {
   float root = 0.0f;
   std::memcpy(&root, &bits, sizeof root);
   for (int step = 0; step < 2; ++step) {  // Halley: to 2e-7
-    const float cube = root * root * root;
-    root = root * (cube + 2.0f * value) / (2.0f * cube + value);
+    const float cube = rounded(root * root * root);
+    root = root * (cube + rounded(2.0f * value)) / (rounded(2.0f * cube) + value);
   }
   // The cube of an 8-bit number is exact in float, and so is its distance to the value. With root = high + low:
   // value - high^3 = low (3 high^2 + 3 high low + low^2).
@@ -97,8 +100,8 @@ struct Sum2 {
   float high = 0.0f;
   std::memcpy(&high, &bits, sizeof high);
   const float low = root - high;
-  const float rest = value - high * high * high;
-  return {high, rest / (3.0f * high * (high + low) + low * low)};
+  const float rest = value - rounded(high * high * high);
+  return {high, rest / (rounded(3.0f * high * (high + low)) + rounded(low * low))};
 }
 
 /// The largest power of two not above a positive normal number.
@@ -112,7 +115,9 @@ struct Sum2 {
 }
 
 /// What length() needs to know of vectors no longer than `longest`: 1.5 * 2^23 quanta, each 2^-10 of its power of two.
-[[nodiscard]] inline float length_splitter(float longest) noexcept { return power_of_two_below(longest) * 12288.0f; }
+[[nodiscard]] inline float length_splitter(float longest) noexcept {
+  return rounded(power_of_two_below(longest) * 12288.0f);
+}
 
 /// sqrt(x^2 + y^2 + z^2), correctly rounded but for a few cases in a million. Points of a regular grid lie exactly on
 /// the borders of shells, where one bit decides which neighbouring shell gets a vote; the published code has double.

@@ -7,6 +7,7 @@
 #include "cloud.hpp"
 #include "config.hpp"
 #include "math.hpp"
+#include "rounded.hpp"
 #include "simd.hpp"
 #include "status.hpp"
 
@@ -105,7 +106,7 @@ inline void offer(Neighborhood& out, const Point& p, std::uint32_t index, const 
   const float dx = p.x - center.x;
   const float dy = p.y - center.y;
   const float dz = p.z - center.z;
-  const float d2 = (dx * dx + dy * dy) + dz * dz;
+  const float d2 = (rounded(dx * dx) + rounded(dy * dy)) + rounded(dz * dz);
   if (!(d2 < radius_squared)) return;
   if (out.size < out.capacity) {
     out.dx[out.size] = dx;

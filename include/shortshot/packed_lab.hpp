@@ -6,6 +6,7 @@
 
 #include "color.hpp"
 #include "config.hpp"
+#include "rounded.hpp"
 #include "simd.hpp"
 
 namespace shortshot {
@@ -23,12 +24,14 @@ class PackedLab {
  public:
   PackedLab() = default;
   PackedLab(const Lab& color) noexcept  // NOLINT: converts like a number
-      : bits_(code(color.L * 20.0f, 2000.0f) | code((color.a + 90.0f) * (1.0f / a_step), 1023.0f) << 11 |
-              code((color.b + 108.875f) * (1.0f / b_step), 2047.0f) << 21) {}
+      : bits_(code(rounded(color.L * 20.0f), 2000.0f) |
+              code(rounded((color.a + 90.0f) * (1.0f / a_step)), 1023.0f) << 11 |
+              code(rounded((color.b + 108.875f) * (1.0f / b_step)), 2047.0f) << 21) {}
 
   operator Lab() const noexcept {  // NOLINT: converts like a number
-    return {static_cast<float>(bits_ & 2047u) * 0.05f, static_cast<float>(bits_ >> 11 & 1023u) * a_step - 90.0f,
-            static_cast<float>(bits_ >> 21) * b_step - 108.875f};
+    return {rounded(static_cast<float>(bits_ & 2047u) * 0.05f),
+            rounded(static_cast<float>(bits_ >> 11 & 1023u) * a_step) - 90.0f,
+            rounded(static_cast<float>(bits_ >> 21) * b_step) - 108.875f};
   }
 
   /// The colours at lab[index[k]], for all lanes: what operator Lab gives.

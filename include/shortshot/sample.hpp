@@ -11,6 +11,7 @@
 #include "cloud.hpp"
 #include "config.hpp"
 #include "math.hpp"
+#include "rounded.hpp"
 #include "status.hpp"
 
 namespace shortshot {
@@ -43,7 +44,7 @@ inline namespace SHORTSHOT_ISA {
     const float dx = p.x / leaf - candidate.voxel[0] - 0.5f;
     const float dy = p.y / leaf - candidate.voxel[1] - 0.5f;
     const float dz = p.z / leaf - candidate.voxel[2] - 0.5f;
-    candidate.d2 = (dx * dx + dy * dy) + dz * dz;
+    candidate.d2 = (rounded(dx * dx) + rounded(dy * dy)) + rounded(dz * dz);
     candidates.push_back(candidate);
   }
   if (candidates.empty()) return Status::empty_cloud;

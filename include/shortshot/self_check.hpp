@@ -3,17 +3,18 @@
 
 #include "config.hpp"
 #include "math.hpp"
+#include "rounded.hpp"
 #include "simd.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
 /// True if this translation unit's arithmetic rounds every operation by itself, as the same bits on every machine need.
-/// False where the compiler fuses a * b + c into one rounding (wherever the CPU can, GCC's default: compile with
-/// -ffp-contract=off), or regroups sums and ignores NaN (-ffast-math, which the library does not support). Descriptors
-/// are then still descriptors, but may differ in their last bits from those of other builds; under -ffast-math, NaN
-/// points may be taken for neighbours. All of a program's translation units that include the library need the flag.
-/// No allocation, reentrant.
+/// GCC and clang are kept from fusing a * b + c into one rounding by rounded() wherever their CPUs can; other compilers
+/// and CPUs may need -ffp-contract=off. False where something is fused nevertheless, or where sums are regrouped and
+/// NaN ignored (-ffast-math, which the library does not support). Descriptors are then still descriptors, but may
+/// differ in their last bits from those of other builds; under -ffast-math, NaN points may be taken for neighbours. It
+/// speaks for the flags of the translation unit that calls it. No allocation, reentrant.
 [[nodiscard]] inline bool self_check() noexcept {
   // Volatile: what is computed while compiling says nothing about the program.
   volatile float read_one_ulp_above = 1.00024414f;    // 1 + 2^-12: its square needs 25 bits
@@ -28,7 +29,7 @@ inline namespace SHORTSHOT_ISA {
   const float scalar_large = read_large;
 
   const bool unfused_lanes = !(simd::largest(simd::abs(a * a - square)) > 0.0f);
-  const bool unfused_scalar = scalar_a * scalar_a - read_square_in_float == 0.0f;
+  const bool unfused_scalar = rounded(scalar_a * scalar_a) - read_square_in_float == 0.0f;
   const bool ungrouped_lanes = !(simd::largest((small + large) - large) > 0.0f);
   const bool ungrouped_scalar = (read_small + scalar_large) - scalar_large == 0.0f;
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)

@@ -1,5 +1,4 @@
-// shortshot/simd_avx2.hpp: the lane shim on AVX2, 8 lanes; no fused multiply-add, which rounds differently. Included by
-// simd.hpp, which says what it must do.
+// shortshot/simd_avx2.hpp: the lane shim on AVX2, 8 lanes. Included by simd.hpp, which says what it must do.
 #pragma once
 
 #include <immintrin.h>
@@ -8,6 +7,7 @@
 #include <cstdint>
 
 #include "config.hpp"
+#include "rounded.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -36,10 +36,16 @@ inline void store(float* p, F32 a) noexcept { _mm256_storeu_ps(p, a.v); }
 inline void store(std::int32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v); }
 inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), a.v); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {_mm256_set1_ps(value)}; }
+/// value_at(k) in lane k.
+template <class Function>
+[[nodiscard, gnu::always_inline]] inline F32 from_lanes(Function value_at) noexcept {
+  return {_mm256_setr_ps(value_at(0), value_at(1), value_at(2), value_at(3), value_at(4), value_at(5), value_at(6),
+                         value_at(7))};
+}
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm256_add_ps(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {_mm256_sub_ps(a.v, b.v)}; }
-[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {_mm256_mul_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {rounded(_mm256_mul_ps(a.v, b.v))}; }
 [[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {_mm256_div_ps(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {_mm256_add_epi32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
@@ -47,6 +53,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinte
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm256_and_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {_mm256_xor_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm256_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm256_sqrt_ps(a.v)}; }
@@ -71,6 +78,8 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinte
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {_mm256_castps_si256(a.v)}; }
+/// The floats whose bits are those of a.
+[[nodiscard]] inline F32 from_bits(I32 a) noexcept { return {_mm256_castsi256_ps(a.v)}; }
 [[nodiscard]] inline F32 to_float(I32 a) noexcept { return {_mm256_cvtepi32_ps(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
@@ -101,6 +110,8 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm256_storeu_si256(reinte
 [[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {_mm256_max_epi16(a.v, b.v)}; }
 /// For a from -2^15, b from 0, to 2^15 - 1.
 [[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {_mm256_madd_epi16(a.v, b.v)}; }
+/// For numbers from 0 to 2^31 - 1, as is the product.
+[[nodiscard]] inline I32 product(I32 a, I32 b) noexcept { return {_mm256_mullo_epi32(a.v, b.v)}; }
 [[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {_mm256_castsi256_ps(_mm256_srai_epi32(a.v, 31))}; }
 /// -1 where m, else 1.
 [[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept {

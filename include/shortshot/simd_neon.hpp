@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "config.hpp"
+#include "rounded.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -34,10 +35,15 @@ inline void store(float* p, F32 a) noexcept { vst1q_f32(p, a.v); }
 inline void store(std::int32_t* p, I32 a) noexcept { vst1q_s32(p, a.v); }
 inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq_u32_s32(a.v)); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {vdupq_n_f32(value)}; }
+/// value_at(k) in lane k.
+template <class Function>
+[[nodiscard, gnu::always_inline]] inline F32 from_lanes(Function value_at) noexcept {
+  return {float32x4_t{value_at(0), value_at(1), value_at(2), value_at(3)}};
+}
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {vaddq_f32(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {vsubq_f32(a.v, b.v)}; }
-[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {vmulq_f32(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {rounded(vmulq_f32(a.v, b.v))}; }
 [[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {vdivq_f32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {vaddq_s32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {vcltq_f32(a.v, b.v)}; }
@@ -45,6 +51,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {vcgeq_f32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {vmvnq_u32(vceqq_f32(a.v, b.v))}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {vandq_u32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {veorq_u32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {vorrq_u32(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {vsqrtq_f32(a.v)}; }
@@ -69,6 +76,8 @@ inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {vreinterpretq_s32_f32(a.v)}; }
+/// The floats whose bits are those of a.
+[[nodiscard]] inline F32 from_bits(I32 a) noexcept { return {vreinterpretq_f32_s32(a.v)}; }
 [[nodiscard]] inline F32 to_float(I32 a) noexcept { return {vcvtq_f32_s32(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
@@ -91,6 +100,8 @@ inline void store(std::uint32_t* p, I32 a) noexcept { vst1q_u32(p, vreinterpretq
 [[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {vmaxq_s32(a.v, b.v)}; }
 /// For a from -2^15, b from 0, to 2^15 - 1.
 [[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {vmulq_s32(a.v, b.v)}; }
+/// For numbers from 0 to 2^31 - 1, as is the product.
+[[nodiscard]] inline I32 product(I32 a, I32 b) noexcept { return {vmulq_s32(a.v, b.v)}; }
 [[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {vcltzq_s32(a.v)}; }
 /// -1 where m, else 1.
 [[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept {

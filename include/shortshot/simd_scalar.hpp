@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "config.hpp"
+#include "rounded.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -42,10 +43,15 @@ inline void store(float* p, F32 a) noexcept { *p = a.v; }
 inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint32_t>(a.v); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {value}; }
+/// value_at(k) in lane k.
+template <class Function>
+[[nodiscard, gnu::always_inline]] inline F32 from_lanes(Function value_at) noexcept {
+  return {value_at(0)};
+}
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {a.v + b.v}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {a.v - b.v}; }
-[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {a.v * b.v}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {rounded(a.v * b.v)}; }
 [[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {a.v / b.v}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {a.v + b.v}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {a.v < b.v}; }
@@ -53,6 +59,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {a.v >= b.v}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
+[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {root(a.v)}; }
@@ -77,6 +84,12 @@ inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint
   std::memcpy(&bits.v, &a.v, sizeof bits.v);
   return bits;
 }
+/// The floats whose bits are those of a.
+[[nodiscard]] inline F32 from_bits(I32 a) noexcept {
+  F32 value{};
+  std::memcpy(&value.v, &a.v, sizeof value.v);
+  return value;
+}
 [[nodiscard]] inline F32 to_float(I32 a) noexcept { return {static_cast<float>(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
@@ -100,6 +113,8 @@ inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint
 [[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {a.v > b.v ? a.v : b.v}; }
 /// For a from -2^15, b from 0, to 2^15 - 1.
 [[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
+/// For numbers from 0 to 2^31 - 1, as is the product.
+[[nodiscard]] inline I32 product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
 [[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {a.v < 0}; }
 /// -1 where m, else 1.
 [[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept { return {m.v ? -1 : 1}; }

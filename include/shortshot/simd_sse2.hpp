@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "config.hpp"
+#include "rounded.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -36,10 +37,15 @@ inline void store(float* p, F32 a) noexcept { _mm_storeu_ps(p, a.v); }
 inline void store(std::int32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a.v); }
 inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), a.v); }
 [[nodiscard]] inline F32 all(float value) noexcept { return {_mm_set1_ps(value)}; }
+/// value_at(k) in lane k.
+template <class Function>
+[[nodiscard, gnu::always_inline]] inline F32 from_lanes(Function value_at) noexcept {
+  return {_mm_setr_ps(value_at(0), value_at(1), value_at(2), value_at(3))};
+}
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm_add_ps(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {_mm_sub_ps(a.v, b.v)}; }
-[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {_mm_mul_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {rounded(_mm_mul_ps(a.v, b.v))}; }
 [[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {_mm_div_ps(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {_mm_add_epi32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm_cmplt_ps(a.v, b.v)}; }
@@ -47,6 +53,7 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpr
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm_cmpge_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {_mm_cmpneq_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm_and_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {_mm_xor_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm_sqrt_ps(a.v)}; }
@@ -71,6 +78,8 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpr
 
 /// The integers whose bits are those of a.
 [[nodiscard]] inline I32 bits_of(F32 a) noexcept { return {_mm_castps_si128(a.v)}; }
+/// The floats whose bits are those of a.
+[[nodiscard]] inline F32 from_bits(I32 a) noexcept { return {_mm_castsi128_ps(a.v)}; }
 [[nodiscard]] inline F32 to_float(I32 a) noexcept { return {_mm_cvtepi32_ps(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
@@ -97,6 +106,12 @@ inline void store(std::uint32_t* p, I32 a) noexcept { _mm_storeu_si128(reinterpr
 [[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {_mm_max_epi16(a.v, b.v)}; }
 /// For a from -2^15, b from 0, to 2^15 - 1.
 [[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {_mm_madd_epi16(a.v, b.v)}; }
+/// For numbers from 0 to 2^31 - 1, as is the product.
+[[nodiscard]] inline I32 product(I32 a, I32 b) noexcept {
+  const __m128i even = _mm_mul_epu32(a.v, b.v);
+  const __m128i odd = _mm_mul_epu32(_mm_srli_epi64(a.v, 32), _mm_srli_epi64(b.v, 32));
+  return {_mm_or_si128(even, _mm_slli_epi64(odd, 32))};
+}
 [[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {_mm_castsi128_ps(_mm_srai_epi32(a.v, 31))}; }
 /// -1 where m, else 1.
 [[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept {

@@ -35,4 +35,6 @@ struct Derived : Base {};
 bool broken(const Base* base) { return dynamic_cast<const Derived*>(base) != nullptr; }
 #elif CASE == 10  // no calls to other code
 float broken(float angle) { return std::sin(angle); }
+#elif CASE == 11  // no fused multiply-add
+float broken(float a, float b, float c) { return a * b + c; }
 #endif

@@ -64,8 +64,18 @@ doubles=$("${OBJDUMP:-objdump}" -d --no-show-raw-insn "$object" | awk -F '\t' '
 # shellcheck disable=SC2086  # one word for each instruction
 broken "no double" $doubles
 
+# Instructions that round a product and a sum once, for both: AVX, AArch64, ARM's VFP (whose vmla rounds twice). Even
+# where the product is exact and they change nothing, so that this needs no judgement.
+fused=$("${OBJDUMP:-objdump}" -d --no-show-raw-insn "$object" | awk -F '\t' '
+  { name = $2; sub(/ .*/, "", name) }
+  name ~ /^vfn?m(add|sub|addsub|subadd)[0-9]*[sp][sd]$/ || name ~ /^fn?m(add|sub|la|ls)$/ ||
+  name ~ /^vfn?m[as]\./ { print name }' | sort -u)
+# shellcheck disable=SC2086  # one word for each instruction
+broken "no fused multiply-add" $fused
+
 if [ -n "$report" ]; then
   printf '%s' "$report"
   exit 1
 fi
-echo "kept: no heap, exceptions, RTTI, printing, double, static initialisers, function-local statics, writable constants"
+echo "kept: no heap, exceptions, RTTI, printing, double, fused multiply-add, static initialisers, function-local statics," \
+  "writable constants"

@@ -2,7 +2,7 @@
 #include <shortshot/kernel.hpp>
 
 int main() {
-#if defined(__FMA__)
+#if defined(__AVX__)  // as -mfma implies, whatever else is undefined
   if (!__builtin_cpu_supports("fma") || !__builtin_cpu_supports("avx2")) return 77;
 #endif
   return shortshot::self_check() ? 0 : 1;

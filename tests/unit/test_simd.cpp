@@ -68,6 +68,20 @@ TEST_CASE("simd: first() and increment() count lanes") {
   }
 }
 
+TEST_CASE("simd: lanes from a function, bits there and back, products of 31 bits") {
+  const float values[] = {1.5f, -0.0f, not_a_number, 3e38f, 1e-45f, -7.0f, 0.1f, 12345.0f};
+  const simd::F32 made = simd::from_lanes([&](std::size_t k) { return values[k]; });
+  float back[lanes];
+  simd::store(back, simd::from_bits(simd::bits_of(made)));
+  CHECK(std::memcmp(back, values, sizeof back) == 0);
+
+  const std::uint32_t a[] = {0, 46340, 1, 65536, 2, 3, 32767, 2147483647};
+  const std::uint32_t b[] = {2147483647, 46340, 2147483647, 32767, 1073741823, 715827882, 65536, 1};
+  std::uint32_t product[lanes];
+  simd::store(product, simd::product(simd::load(a), simd::load(b)));
+  for (std::size_t k = 0; k < lanes; ++k) CHECK(product[k] == a[k] * b[k]);
+}
+
 TEST_CASE("simd: numbers differ, zeros do not, and NaN differs from itself") {
   const float tiny = 1e-45f;
   const auto differ = [](float a, float b) { return any(simd::all(a) != simd::all(b)); };

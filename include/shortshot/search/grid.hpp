@@ -4,11 +4,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include "../cloud.hpp"
 #include "../config.hpp"
 #include "../neighborhood.hpp"
+#include "../rounded.hpp"
 #include "../simd.hpp"
 #include "../status.hpp"
 #include "grid_box.hpp"
@@ -67,27 +69,22 @@ class Grid {
   /// The second half, a counting sort: count per cell, turn counts into ends of the cells before, and let each placed
   /// point move its cell's end forward to where it belongs.
   void sort(const Memory& memory) const noexcept {
-    const GridBox box = box_;  // copies that no store can change stay in registers
-    const Memory to = memory;
-    const std::size_t cells = box.cells();
+    const Memory to = memory;  // a copy that no store can change stays in registers; so below
+    const std::size_t cells = box_.cells();
+    const bool roomy = to.xyz != nullptr && points_ >= 2 * simd::lanes;
+    const CellNotes notes{roomy ? to.xyz : nullptr, points_};
+    if (roomy) note_cells(notes);
     for (std::size_t c = 0; c < cells; ++c) to.cell_end[c] = 0;
-    for_each_valid(cloud_, [&](std::size_t, const Point& p) { ++to.cell_end[box.cell_of(p)]; });
+    for_each_cell(notes, [&](std::size_t, std::size_t cell) { ++to.cell_end[cell]; });
     Index begin = 0;
     for (std::size_t c = 0; c < cells; ++c) {
       const Index count = to.cell_end[c];
       to.cell_end[c] = begin;
       begin = static_cast<Index>(begin + count);
     }
-    float* const x = to.xyz;
-    const std::size_t n = points_;
-    for_each_valid(cloud_, [&](std::size_t index, const Point& p) {
-      const std::size_t place = to.cell_end[box.cell_of(p)]++;
-      to.order[place] = static_cast<Index>(index);
-      if (x == nullptr) return;
-      x[place] = p.x;
-      x[n + place] = p.y;
-      x[2 * n + place] = p.z;
-    });
+    for_each_cell(
+        notes, [&](std::size_t index, std::size_t cell) { to.order[to.cell_end[cell]++] = static_cast<Index>(index); });
+    if (to.xyz != nullptr) copy_points(to.order, to.xyz);
   }
 
   [[nodiscard]] Status status() const noexcept {
@@ -104,7 +101,7 @@ class Grid {
     if (!is_finite(center)) return Status::ok;
     Neighborhood found = out;
     // The margin covers the rounding of d2, of the gaps and of the chord: each row gets all cells it needs.
-    const float reach = radius.value * 1.000002f;
+    const float reach = rounded(radius.value * 1.000002f);
     const CellRange y = box_.range(1, center.y, reach);
     const CellRange z = box_.range(2, center.z, reach);
     for (std::uint32_t cz = z.first; cz <= z.last; ++cz) {
@@ -112,7 +109,7 @@ class Grid {
       for (std::uint32_t cy = y.first; cy <= y.last; ++cy) {
         const float gap_y = box_.gap(1, center.y, cy);
         // Half the chord that the sphere can have in common with this row of cells, squared.
-        const float chord2 = (reach * reach - gap_y * gap_y) - gap_z * gap_z;
+        const float chord2 = (rounded(reach * reach) - rounded(gap_y * gap_y)) - rounded(gap_z * gap_z);
         if (!(chord2 >= 0.0f)) continue;
         const CellRange x = box_.range(0, center.x, simd::root(chord2));
         const std::size_t row = box_.row(cy, cz);
@@ -139,6 +136,67 @@ class Grid {
     box_ = fit_box(cloud_, extent, valid, cell_size, memory.cell_end, memory.cell_capacity);
     points_ = valid;
     return Status::ok;
+  }
+
+  /// The cell of each valid point and its place in the cloud, so that cells are worked out once: integers, kept where
+  /// the coordinates will be. The cells are the first third; the places end a register's length before the last
+  /// third does, because lanes are packed by stores of whole registers.
+  struct CellNotes {
+    float* cells;  ///< null if there is no room
+    std::size_t size;
+    [[nodiscard]] float* places() const noexcept { return cells + 2 * size - simd::lanes; }
+  };
+
+  void note_cells(const CellNotes& notes) const noexcept {
+    const GridBox box = box_;
+    float* cell = notes.cells;
+    float* place = notes.places();
+    std::uint32_t lane_numbers[simd::lanes];
+    for (std::uint32_t k = 0; k < simd::lanes; ++k) lane_numbers[k] = k;
+    const simd::I32 lane = simd::load(lane_numbers);
+    for_each_valid_register(cloud_, [&](std::size_t i, const PointLanes& points, simd::Mask valid) {
+      const simd::Packing packing = simd::packing(valid);
+      const simd::I32 index = simd::all_int(static_cast<std::int32_t>(i)) + lane;
+      simd::store(cell, simd::from_bits(box.cells_of(points)), packing);
+      simd::store(place, simd::from_bits(index), packing);
+      cell += packing.count;
+      place += packing.count;
+    });
+  }
+
+  /// Calls f(index, cell) for each valid point, in order.
+  template <class Function>
+  void for_each_cell(const CellNotes& notes, Function f) const noexcept {
+    if (notes.cells == nullptr) {
+      const GridBox box = box_;
+      for_each_valid(cloud_, [&](std::size_t index, const Point& p) { f(index, box.cell_of(p)); });
+      return;
+    }
+    const auto integer = [](const float* note) {
+      std::uint32_t bits = 0;
+      std::memcpy(&bits, note, sizeof bits);
+      return bits;
+    };
+    const float* const places = notes.places();
+    for (std::size_t k = 0; k < notes.size; ++k) f(integer(places + k), integer(notes.cells + k));
+  }
+
+  /// The points' coordinates, in their new order.
+  void copy_points(const Index* order, float* xyz) const noexcept {
+    const std::size_t n = points_;
+    std::size_t i = 0;
+    for (; i + simd::lanes <= n; i += simd::lanes) {
+      const PointLanes p = read_points(cloud_, [&](std::size_t lane) { return order[i + lane]; });
+      simd::store(xyz + i, p.x);
+      simd::store(xyz + n + i, p.y);
+      simd::store(xyz + 2 * n + i, p.z);
+    }
+    for (; i < n; ++i) {
+      const Point p = point(cloud_, order[i]);
+      xyz[i] = p.x;
+      xyz[n + i] = p.y;
+      xyz[2 * n + i] = p.z;
+    }
   }
 
   /// cell_end[c] is where cell c ends in `order`; it begins where the cell before it ends.

@@ -6,6 +6,8 @@
 
 #include "../cloud.hpp"
 #include "../config.hpp"
+#include "../rounded.hpp"
+#include "../simd.hpp"
 #include "../unroll.hpp"
 
 namespace shortshot {
@@ -20,19 +22,23 @@ struct Extent {
 
 /// Extent of the valid points; returns how many there are.
 [[nodiscard]] inline std::size_t measure(const CloudView& cloud, Extent& extent) noexcept {
-  std::size_t valid = 0;
   constexpr float most = 3.402823466e38f;
-  Extent e{{most, most, most}, {-most, -most, -most}};  // a local: it stays in registers
-  for_each_valid(cloud, [&](std::size_t, const Point& p) {
+  simd::F32 low[3] = {simd::all(most), simd::all(most), simd::all(most)};
+  simd::F32 high[3] = {simd::all(-most), simd::all(-most), simd::all(-most)};
+  simd::I32 valid_points{};
+  for_each_valid_register(cloud, [&](std::size_t, const PointLanes& p, simd::Mask valid) {
+    const simd::F32 v[3] = {p.x, p.y, p.z};
     unroll<3>([&](auto axis) {
-      const float v = coordinate(p, axis);
-      e.low[axis] = v < e.low[axis] ? v : e.low[axis];
-      e.high[axis] = v > e.high[axis] ? v : e.high[axis];
+      low[axis] = min(select(valid, v[axis], low[axis]), low[axis]);
+      high[axis] = max(select(valid, v[axis], high[axis]), high[axis]);
     });
-    ++valid;
+    valid_points = increment(valid, valid_points);
   });
-  extent = e;
-  return valid;
+  for (int axis = 0; axis < 3; ++axis) {
+    extent.low[axis] = 0.0f - simd::largest(simd::all(0.0f) - low[axis]);
+    extent.high[axis] = simd::largest(high[axis]);
+  }
+  return static_cast<std::uint32_t>(sum(valid_points));
 }
 
 /// First and last cell of a range, both inside the box.
@@ -66,7 +72,7 @@ struct GridBox {
   [[nodiscard]] float gap(int axis, float v, std::uint32_t other) const noexcept {
     const std::uint32_t own = cell(axis, v);
     if (other == own) return 0.0f;
-    const float near_edge = low[axis] + static_cast<float>(other < own ? other + 1 : other) * cell_size;
+    const float near_edge = low[axis] + rounded(static_cast<float>(other < own ? other + 1 : other) * cell_size);
     const float distance = (other < own ? v - near_edge : near_edge - v) - rounding[axis];
     return distance > 0.0f ? distance : 0.0f;
   }
@@ -77,6 +83,16 @@ struct GridBox {
 
   [[nodiscard]] std::size_t cell_of(const Point& p) const noexcept {
     return row(cell(1, p.y), cell(2, p.z)) + cell(0, p.x);
+  }
+
+  /// The cells of a register of points; those of points that are not valid mean nothing.
+  [[nodiscard]] simd::I32 cells_of(const PointLanes& p) const noexcept {
+    const auto along = [this](int axis, simd::F32 v) {
+      const simd::F32 position = (v - simd::all(low[axis])) * simd::all(cells_per_metre);
+      return truncate_to_int(min(max(position, simd::all(0.0f)), simd::all(last[axis])));
+    };
+    const auto stride = [this](int axis) { return simd::all_int(static_cast<std::int32_t>(dims[axis])); };
+    return product(product(along(2, p.z), stride(1)) + along(1, p.y), stride(0)) + along(0, p.x);
   }
 
   /// Cells of half the size, over the same box.
@@ -128,8 +144,8 @@ template <class Index>
   std::size_t above = slices[last];
   for (; below <= valid / 128 && first < last; below += slices[first]) ++first;
   for (; above <= valid / 128 && first < last; above += slices[last]) --last;
-  extent.low[axis] = low + static_cast<float>(first) * width;
-  extent.high[axis] = low + static_cast<float>(last + 1) * width;
+  extent.low[axis] = low + rounded(static_cast<float>(first) * width);
+  extent.high[axis] = low + rounded(static_cast<float>(last + 1) * width);
   return 2 * (last + 1 - first) <= count;
 }
 

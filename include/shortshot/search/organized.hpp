@@ -9,6 +9,7 @@
 #include "../config.hpp"
 #include "../math.hpp"
 #include "../neighborhood.hpp"
+#include "../rounded.hpp"
 #include "../status.hpp"
 
 namespace shortshot {
@@ -53,7 +54,7 @@ class OrganizedSearch {
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
-    const float reach = radius.value * 1.000001f;  // covers the rounding of d2
+    const float reach = rounded(radius.value * 1.000001f);  // covers the rounding of d2
     const detail::PixelRange columns = window(columns_, center.x, center.z, reach, cloud_.width);
     const detail::PixelRange rows = window(rows_, center.y, center.z, reach, cloud_.height);
     for (std::size_t v = rows.first; v < rows.last; ++v) {
@@ -74,10 +75,10 @@ class OrganizedSearch {
     if (!(near * far > 0.0f)) return {0, pixels};
     const float corners[4] = {(center - reach) / near, (center - reach) / far, (center + reach) / near,
                               (center + reach) / far};
-    float low = p.focal * corners[0] + p.center;
+    float low = rounded(p.focal * corners[0]) + p.center;
     float high = low;
     for (const float corner : corners) {
-      const float pixel = p.focal * corner + p.center;
+      const float pixel = rounded(p.focal * corner) + p.center;
       low = pixel < low ? pixel : low;
       high = pixel > high ? pixel : high;
     }
@@ -146,17 +147,17 @@ class OrganizedSearch {
       mean_pixel += (pixel - mean_pixel) / count;
     }
     void add_to_slope(float slope, float pixel) noexcept {
-      variance += (slope - mean_slope) * (slope - mean_slope);
-      covariance += (slope - mean_slope) * (pixel - mean_pixel);
+      variance += rounded((slope - mean_slope) * (slope - mean_slope));
+      covariance += rounded((slope - mean_slope) * (pixel - mean_pixel));
     }
     [[nodiscard]] detail::Projection projection() const noexcept {
       const float focal = variance > 0.0f ? covariance / variance : 0.0f;
-      return {focal, mean_pixel - focal * mean_slope, 0.0f};
+      return {focal, mean_pixel - rounded(focal * mean_slope), 0.0f};
     }
   };
 
   static void widen(detail::Projection& p, float slope, float pixel) noexcept {
-    const float deviation = pixel - (p.focal * slope + p.center);
+    const float deviation = pixel - (rounded(p.focal * slope) + p.center);
     const float magnitude = deviation < 0.0f ? 0.0f - deviation : deviation;
     if (!(magnitude <= p.error)) p.error = magnitude;
   }
