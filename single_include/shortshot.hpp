@@ -879,7 +879,7 @@ struct Sum2 {
   float low;
 };
 
-/// Cube root of a positive normal number; high + low is within 2e-9 of it, so that it can be rounded once, at the end.
+/// Cube root of a number from 1e-3 to 1; high + low is within 2e-9 of it, so that it can be rounded once, at the end.
 [[nodiscard]] inline Sum2 cbrt(float value) noexcept {
   std::uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
@@ -916,7 +916,7 @@ struct Sum2 {
   return rounded(power_of_two_below(longest) * 12288.0f);
 }
 
-/// sqrt(x^2 + y^2 + z^2), correctly rounded but for a few cases in a million. Points of a regular grid lie exactly on
+/// sqrt(x^2 + y^2 + z^2), correctly rounded but for one case in a thousand. Points of a regular grid lie exactly on
 /// the borders of shells, where one bit decides which neighbouring shell gets a vote; the published code has double.
 /// Each argument is split in a multiple of a common quantum, whose squares add up exactly, and a small rest.
 [[nodiscard]] inline simd::F32 length(simd::F32 x, simd::F32 y, simd::F32 z, float splitter) noexcept {
@@ -2137,7 +2137,7 @@ struct Neighborhood {
   float* dy;
   float* dz;
   float* d2;             ///< squared distance, summed as (dx*dx + dy*dy) + dz*dz in float
-  std::uint32_t* index;  ///< the neighbour's index in the cloud
+  std::uint32_t* index;  ///< the neighbour's index in the cloud; no two are the same
   std::uint32_t capacity;
   std::uint32_t size;   ///< neighbours stored, the key point itself and its copies included
   std::uint32_t found;  ///< neighbours found; more than `capacity` if they did not fit

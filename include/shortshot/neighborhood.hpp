@@ -22,7 +22,7 @@ struct Neighborhood {
   float* dy;
   float* dz;
   float* d2;             ///< squared distance, summed as (dx*dx + dy*dy) + dz*dz in float
-  std::uint32_t* index;  ///< the neighbour's index in the cloud
+  std::uint32_t* index;  ///< the neighbour's index in the cloud; no two are the same
   std::uint32_t capacity;
   std::uint32_t size;   ///< neighbours stored, the key point itself and its copies included
   std::uint32_t found;  ///< neighbours found; more than `capacity` if they did not fit

@@ -1,0 +1,60 @@
+// Parts of the kernel that its results do not show one by one: how neighbours come into chunks, and the unit of votes.
+#include <doctest/doctest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "fixtures.hpp"
+
+using namespace unit;
+namespace detail = ss::detail;
+
+TEST_CASE("kernel parts: chunks take every neighbour exactly once, in at most four stretches") {
+  for (std::uint32_t size = 0; size <= 5 * detail::chunk_size; ++size) {
+    std::vector<int> taken(size, 0);
+    for (std::uint32_t chunk = 0; chunk * detail::chunk_size < size; ++chunk) {
+      const detail::Stretches stretches = detail::stretches_of_chunk(chunk, size);
+      REQUIRE(stretches.count * stretches.length <= detail::chunk_size);
+      for (std::uint32_t k = 0; k < stretches.count; ++k) {
+        for (std::uint32_t i = 0; i < stretches.length; ++i) {
+          ++taken.at(stretches.first + k * stretches.stride + i);
+        }
+      }
+    }
+    for (const int times : taken) REQUIRE(times == 1);
+  }
+}
+
+TEST_CASE("kernel parts: the votes of as many neighbours as there may be fit int32, and positions are finer") {
+  for (const std::uint32_t n : {1u, 2u, 3u, 549u, 1u << 16, (1u << 16) + 1, ss::max_neighbors}) {
+    const ss::VoteUnit unit = detail::vote_unit<ss::Scsh336::position_bits>(n);
+    CHECK(unit.one == std::int32_t{1} << unit.bits);
+    CHECK(std::int64_t{4} * unit.one * n <= std::int64_t{1} << 30);
+    CHECK(unit.bits < ss::Scsh336::position_bits);
+    CHECK(unit.bits >= 4);
+  }
+  using Finest = ss::Ssh<ss::SphericalGrid<1024, 1, 1>>;
+  CHECK(Finest::position_bits == 20);
+  CHECK(detail::vote_unit<Finest::position_bits>(1).bits == 19);
+}
+
+TEST_CASE("kernel parts: tied votes of neighbours at one distance, with one index, stay inside the neighbourhood") {
+  // Pairs of opposite points at one distance: all votes are tied, all ranks have the same d2.
+  constexpr std::uint32_t pairs = 20000;
+  Room room(2 * pairs);
+  ss::Neighborhood n = room.neighborhood();
+  Random random(3);
+  for (std::uint32_t k = 0; k < pairs; ++k) {
+    const float x = random.between(0.1f, 0.5f), y = random.between(0.01f, 0.3f), z = random.between(0.001f, 0.1f);
+    for (const float sign : {1.0f, -1.0f}) {
+      n.dx[n.size] = sign * x;
+      n.dy[n.size] = sign * y;
+      n.dz[n.size] = sign * z;
+      n.d2[n.size] = 0.25f;
+      n.index[n.size] = 0;  // not even the index tells them apart
+      ++n.size;
+    }
+  }
+  ss::Frame frame{};
+  CHECK(ss::estimate_frame(n, 1.0f, frame) == ss::Status::ok);
+}
