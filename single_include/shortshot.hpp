@@ -2191,7 +2191,7 @@ struct Offsets {
   simd::F32 dx, dy, dz, d2;
 };
 
-[[nodiscard]] inline Offsets load_offsets(const Neighborhood& n, std::uint32_t i) noexcept {
+[[nodiscard, gnu::always_inline]] inline Offsets load_offsets(const Neighborhood& n, std::uint32_t i) noexcept {
   if (n.size - i >= simd::lanes) {
     return {simd::load(n.dx + i), simd::load(n.dy + i), simd::load(n.dz + i), simd::load(n.d2 + i)};
   }
@@ -2207,7 +2207,7 @@ struct Offsets {
 }
 
 /// The same register's indices; 0 for what is left over.
-[[nodiscard]] inline simd::I32 load_indices(const Neighborhood& n, std::uint32_t i) noexcept {
+[[nodiscard, gnu::always_inline]] inline simd::I32 load_indices(const Neighborhood& n, std::uint32_t i) noexcept {
   if (n.size - i >= simd::lanes) return simd::load(n.index + i);
   std::uint32_t rest[simd::lanes] = {};
   for (std::uint32_t k = 0; k < n.size - i; ++k) rest[k] = n.index[i + k];
@@ -2690,7 +2690,9 @@ struct Chunk {
   /// counter-clockwise, in turns, 0..1.
   [[nodiscard]] const float* distance(std::uint32_t i) const noexcept { return coordinates + i; }
   [[nodiscard]] const float* elevation(std::uint32_t i) const noexcept { return coordinates + i + chunk_size; }
-  [[nodiscard]] const float* azimuth(std::uint32_t i) const noexcept { return coordinates + i + 2 * chunk_size; }
+  [[nodiscard]] const float* azimuth(std::uint32_t i) const noexcept {
+    return coordinates + i + 2 * std::size_t{chunk_size};
+  }
 };
 
 /// Closest squared distance that is described: the published code skips the key point and its copies by this bound.
@@ -2787,7 +2789,7 @@ inline void locate(const Neighborhood& all, const Stretches& stretches, const Fr
         float* const coordinates = chunk.coordinates + size;
         simd::store(coordinates, distance, packing...);
         simd::store(coordinates + chunk_size, elevation, packing...);
-        simd::store(coordinates + 2 * chunk_size, azimuth, packing...);
+        simd::store(coordinates + 2 * std::size_t{chunk_size}, azimuth, packing...);
       };
       const simd::Mask described = are_described(v.d2, radius);
       if (every(described)) {

@@ -2,6 +2,7 @@
 // spherical coordinates in the frame.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -29,7 +30,9 @@ struct Chunk {
   /// counter-clockwise, in turns, 0..1.
   [[nodiscard]] const float* distance(std::uint32_t i) const noexcept { return coordinates + i; }
   [[nodiscard]] const float* elevation(std::uint32_t i) const noexcept { return coordinates + i + chunk_size; }
-  [[nodiscard]] const float* azimuth(std::uint32_t i) const noexcept { return coordinates + i + 2 * chunk_size; }
+  [[nodiscard]] const float* azimuth(std::uint32_t i) const noexcept {
+    return coordinates + i + 2 * std::size_t{chunk_size};
+  }
 };
 
 /// Closest squared distance that is described: the published code skips the key point and its copies by this bound.
@@ -126,7 +129,7 @@ inline void locate(const Neighborhood& all, const Stretches& stretches, const Fr
         float* const coordinates = chunk.coordinates + size;
         simd::store(coordinates, distance, packing...);
         simd::store(coordinates + chunk_size, elevation, packing...);
-        simd::store(coordinates + 2 * chunk_size, azimuth, packing...);
+        simd::store(coordinates + 2 * std::size_t{chunk_size}, azimuth, packing...);
       };
       const simd::Mask described = are_described(v.d2, radius);
       if (every(described)) {

@@ -76,7 +76,7 @@ struct Offsets {
   simd::F32 dx, dy, dz, d2;
 };
 
-[[nodiscard]] inline Offsets load_offsets(const Neighborhood& n, std::uint32_t i) noexcept {
+[[nodiscard, gnu::always_inline]] inline Offsets load_offsets(const Neighborhood& n, std::uint32_t i) noexcept {
   if (n.size - i >= simd::lanes) {
     return {simd::load(n.dx + i), simd::load(n.dy + i), simd::load(n.dz + i), simd::load(n.d2 + i)};
   }
@@ -92,7 +92,7 @@ struct Offsets {
 }
 
 /// The same register's indices; 0 for what is left over.
-[[nodiscard]] inline simd::I32 load_indices(const Neighborhood& n, std::uint32_t i) noexcept {
+[[nodiscard, gnu::always_inline]] inline simd::I32 load_indices(const Neighborhood& n, std::uint32_t i) noexcept {
   if (n.size - i >= simd::lanes) return simd::load(n.index + i);
   std::uint32_t rest[simd::lanes] = {};
   for (std::uint32_t k = 0; k < n.size - i; ++k) rest[k] = n.index[i + k];
