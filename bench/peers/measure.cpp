@@ -16,9 +16,9 @@ void sample(const Step& step, Samples& samples) {
   if (samples.taken() > 0 && samples.last_ms() > long_step_ms) return;
   const double rate_before = add_rate();
   const long preemptions_before = preemptions();
-  const double start = now_ms(step.clock);
+  const double start = now_seconds(step.clock);
   step.run();
-  const double ms = now_ms(step.clock) - start;
+  const double ms = 1e3 * (now_seconds(step.clock) - start);
   // CPU time stands still while another process has the core; wall time does not.
   const bool waited = step.clock == Clock::wall && preemptions() > preemptions_before;
   samples.add(ms, waited ? 0.0 : std::min(rate_before, add_rate()));

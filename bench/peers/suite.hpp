@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace shortshot_bench::peers {
+#include "timing/clock.hpp"
 
-enum class Clock { thread_cpu, wall };
+namespace shortshot_bench::peers {
 
 /// Work of a suite that is timed by itself, such as building a tree. Steps run in their order; one may use what those
 /// before it have made.

@@ -4,15 +4,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <ctime>
+
+#include "timing/clock.hpp"
 
 namespace shortshot_bench::peers {
-
-double now_ms(Clock clock) {
-  timespec time{};
-  clock_gettime(clock == Clock::wall ? CLOCK_MONOTONIC : CLOCK_THREAD_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 long preemptions() {
   rusage usage{};
@@ -23,12 +18,12 @@ long preemptions() {
 double add_rate() {
   constexpr std::uint64_t turns = 100'000;
   std::uint64_t a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0, h = 0;
-  const double start = now_ms(Clock::thread_cpu);
+  const double start = now_seconds(Clock::thread_cpu);
   for (std::uint64_t i = 0; i < turns; ++i) {
     a += i, b += i, c += i, d += i, e += i, f += i, g += i, h += i;
     asm volatile("" : "+r"(a), "+r"(b), "+r"(c), "+r"(d), "+r"(e), "+r"(f), "+r"(g), "+r"(h));  // keeps every sum
   }
-  return 8.0 * static_cast<double>(turns) / (1e6 * (now_ms(Clock::thread_cpu) - start));
+  return 8.0 * static_cast<double>(turns) / (1e9 * (now_seconds(Clock::thread_cpu) - start));
 }
 
 std::size_t Samples::kept(double least_rate) const {
@@ -48,9 +43,7 @@ double Samples::median_ms(double least_rate) const {
   for (const Sample& sample : samples_) {
     if (all || sample.rate >= least_rate) times.push_back(sample.ms);
   }
-  std::sort(times.begin(), times.end());
-  const std::size_t middle = times.size() / 2;
-  return times.size() % 2 == 1 ? times[middle] : 0.5 * (times[middle - 1] + times[middle]);
+  return median(times);
 }
 
 }  // namespace shortshot_bench::peers

@@ -5,11 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "peers/suite.hpp"
-
 namespace shortshot_bench::peers {
-
-double now_ms(Clock clock);
 
 /// How often any thread of this process had to give up its core.
 long preemptions();

@@ -7,14 +7,9 @@
 
 #include "scaling/allocated.hpp"
 #include "scaling/curve_point.hpp"
+#include "timing/clock.hpp"
 
 namespace shortshot_bench::scaling {
-
-/// Thread CPU time does not count the time in which other programs have the core; wall time is what several threads
-/// are for.
-enum class Clock { thread_cpu, wall };
-
-double now_seconds(Clock clock);
 
 /// What some work took.
 struct Cost {
@@ -48,8 +43,5 @@ struct CurveOptions {
 /// Runs each task once for its memory and to warm up, then all of them in turn, `repetitions` times; medians come out.
 /// Progress goes to stderr.
 std::vector<CurvePoint> measure(const CurveOptions& curve, const std::vector<Task>& tasks);
-
-/// The value in the middle; the mean of two if they share it. Of one or more values.
-double median(std::vector<double> values);
 
 }  // namespace shortshot_bench::scaling

@@ -18,6 +18,7 @@
 
 namespace {
 
+using namespace shortshot_bench;
 using namespace shortshot_bench::scaling;
 
 std::vector<CurvePoint> two_series() {
