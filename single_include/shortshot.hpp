@@ -954,7 +954,8 @@ enum class [[nodiscard]] Status : std::uint8_t {
   bad_keypoint,        ///< a key point's index lies outside the cloud
   invalid_keypoint,    ///< a key point's position is not finite
   missing_colors,      ///< the descriptor needs colours and the cloud has none
-  too_few_neighbors,   ///< no neighbour to describe, or fewer than five for a local reference frame
+  missing_normals,     ///< the descriptor needs normals and the cloud has none
+  too_few_neighbors,   ///< no neighbour to describe, or fewer than five for a local reference frame or for SHOT
   too_many_neighbors,  ///< the neighbourhood does not fit the workspace; Neighborhood::found says what it takes
   ambiguous_frame,     ///< collinear or symmetric neighbourhood: two principal axes cannot be told apart
   bad_frame,           ///< a given frame is not orthonormal, or not finite
@@ -979,6 +980,7 @@ inline namespace SHORTSHOT_ISA {
     case Status::bad_keypoint: return "the key point's index lies outside the cloud";
     case Status::invalid_keypoint: return "the key point is not finite";
     case Status::missing_colors: return "the descriptor needs colours and the cloud has none";
+    case Status::missing_normals: return "the descriptor needs normals and the cloud has none";
     case Status::too_few_neighbors: return "too few neighbours within the radius";
     case Status::too_many_neighbors: return "more neighbours than the workspace can hold";
     case Status::ambiguous_frame: return "the neighbourhood is too symmetric for a local reference frame";
@@ -1122,18 +1124,18 @@ struct PointLanes {
   simd::F32 x, y, z;
 };
 
-/// Point index_at(k) in lane k.
+/// Element index_at(k) in lane k.
 template <class Function>
-[[nodiscard, gnu::always_inline]] inline PointLanes read_points(const CloudView& cloud, Function index_at) noexcept {
-  const Float3Channel& channel = cloud.points;
-  const auto read_lanes = [&](const unsigned char* first) {
+[[nodiscard, gnu::always_inline]] inline PointLanes read_lanes(const Float3Channel& channel,
+                                                               Function index_at) noexcept {
+  const auto read_component = [&](const unsigned char* first) {
     return simd::from_lanes([&](std::size_t lane) {
       float value = 0.0f;
       std::memcpy(&value, first + index_at(lane) * channel.stride_bytes, sizeof value);
       return value;
     });
   };
-  return {read_lanes(channel.x), read_lanes(channel.y), read_lanes(channel.z)};
+  return {read_component(channel.x), read_component(channel.y), read_component(channel.z)};
 }
 
 [[nodiscard]] inline simd::Mask is_finite(const PointLanes& p) noexcept {
@@ -1151,8 +1153,8 @@ template <class Function>
   for (std::size_t i = 0; i < cloud.size; i += simd::lanes) {
     const bool whole = cloud.size - i >= simd::lanes;
     const PointLanes points =
-        whole ? read_points(cloud, [i](std::size_t lane) { return i + lane; })
-              : read_points(cloud, [=](std::size_t lane) { return i + lane < last ? i + lane : last; });
+        whole ? read_lanes(cloud.points, [i](std::size_t lane) { return i + lane; })
+              : read_lanes(cloud.points, [=](std::size_t lane) { return i + lane < last ? i + lane : last; });
     const simd::Mask valid = whole ? is_finite(points) : is_finite(points) & simd::first(cloud.size - i);
     if (any(valid)) f(i, points, valid);
   }
@@ -1339,13 +1341,14 @@ CloudView view_of(const Container&& cloud) = delete;
 //
 // Both existing codes quantise the CIE ratios to 1/4000 and look their cube root up in a table of 4000 entries; here
 // the same quantised ratio goes through a computed root, so that 16 KB of tables are not needed and pure white, which
-// reads past the end of both tables, is defined. sRGB linearisation keeps its 1 KB table, built at compile time.
+// reads past the end of both tables, is defined (in PclLab, too: as what PCL was seen to read there). sRGB
+// linearisation keeps its 1 KB table, built at compile time.
 
 #include <array>
 
 namespace shortshot {
 
-/// CIELAB colour: L in 0..100, a and b clamped to -120..120 as both existing codes do.
+/// CIELAB colour: L in 0..100 (-16 for PclLab's white), a and b clamped to -120..120 as both existing codes do.
 struct Lab {
   float L, a, b;
 };
@@ -1410,13 +1413,19 @@ struct PublishedLab {
   }
 };
 
-/// CIELAB as PCL's CSHOT computes it: the cube root above the knee, 7.87 t + 16/116 below.
-struct PclLab {
+/// CIELAB by the formula of PCL's CSHOT: the cube root above the knee, 7.87 t + 16/116 below.
+struct CshotLab {
   [[nodiscard]] static float root(float t) noexcept {
     if (!(t > 0.008856f)) return rounded(7.87f * t) + 16.0f / 116.0f;
     const math::Sum2 cube_root = math::cbrt(t);
     return cube_root.high + cube_root.low;
   }
+};
+
+/// The same as PCL's compiled code gives it: its table of roots ends before that of 1, where it reads a zero. White,
+/// the only colour with such a ratio, becomes L = -16, a = 120, b = -120.
+struct PclLab {
+  [[nodiscard]] static float root(float t) noexcept { return t < 1.0f ? CshotLab::root(t) : 0.0f; }
 };
 
 namespace detail {
@@ -1462,9 +1471,9 @@ template <class Root>
 
 }  // namespace detail
 
-/// sRGB bytes to CIELAB by `Rule` (PublishedLab or PclLab). Source: what the published SSH / SCSH code and PCL 1.13
-/// compute; within 1e-4 of either in L, a and b. No allocation, reentrant. LabTable (lab_table.hpp) gives the same bits
-/// several times faster, for 16 KB.
+/// sRGB bytes to CIELAB by `Rule` (PublishedLab, CshotLab or PclLab). Source: what the published SSH / SCSH code and
+/// PCL 1.13 compute; within 1e-4 of either in L, a and b. No allocation, reentrant. LabTable (lab_table.hpp) gives the
+/// same bits several times faster, for 16 KB.
 template <class Rule>
 [[nodiscard]] inline Lab to_lab(Rgb rgb) noexcept {
   return detail::lab_by(detail::root_of_step<Rule>, rgb);
@@ -1652,13 +1661,108 @@ constexpr bool has_rule_of(...) noexcept {
 
 // shortshot/descriptor.hpp: what a descriptor is made of. Pure types: sizes, offsets and layout are compile-time facts.
 
-// shortshot/grid.hpp: the spherical grid of a part, sizes and index arithmetic only.
+// shortshot/axis.hpp: one axis of a part, a compile-time fact: its cells, and what lies beyond them.
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
-/// Divisions of the support sphere: `Radial` shells, `Elevation` cells from the frame's +z to its -z, `Azimuth` cells
-/// counter-clockwise from the frame's -x. The paper's r, e, a (equation 5): n = r * e * a cells.
+/// What lies beyond the last cell of an axis: nothing (radius, elevation, signal) or the first cell (azimuth).
+enum class Beyond { nothing, first_cell };
+
+/// What positions below zero mean, by as much as a cell: there are none, the rest of the first cell (logarithmic
+/// shells), or no place on this axis at all (the azimuth of a point on the frame's z axis, by SHOT's convention).
+enum class BelowZero { never, first_cell, nowhere };
+
+/// One axis of a part: its number of cells, the distance of two neighbouring cells in the descriptor, and its ends.
+/// Positions along it are fixed-point numbers of cells with `Bits` bits behind the point.
+template <int Cells, int Stride, Beyond End, int Bits, BelowZero Below = BelowZero::never>
+struct Axis {
+  static constexpr int cells = Cells;
+  static constexpr int stride = Stride;
+  static constexpr Beyond end = End;
+  static constexpr int bits = Bits;
+  static constexpr float one = static_cast<float>(std::int32_t{1} << Bits);  ///< a whole cell
+  static constexpr BelowZero below_zero = Below;
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/cells.hpp: the conventions of cells: where they begin, on which side a border lies, how they are laid out.
+//
+// There are two: that of the published SSH / SCSH code and that of SHOT as PCL computes it. A descriptor has one.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// Distances of neighbouring cells in a grid's layout, in cells.
+struct CellStrides {
+  int radial, elevation, azimuth;
+};
+
+/// The cells of the published SSH / SCSH code: elevation from the frame's +z down, a border belongs to the cell above
+/// it, radius is laid out fastest and azimuth slowest, and a histogram has bins of equal width.
+struct PublishedCells {
+  template <class Grid>
+  static constexpr CellStrides strides{1, Grid::radial, Grid::radial* Grid::elevation};
+  /// Values of a histogram of a signal's `bins`.
+  [[nodiscard]] static constexpr int values(int bins) noexcept { return bins; }
+
+  /// Neighbours with a squared distance up to this one are taken for the key point's copies.
+  static constexpr float copies_d2 = 1e-15f;
+  /// Fewest neighbours, the key point and its copies included.
+  static constexpr std::uint32_t min_neighbors = 0;
+  /// Distances on the borders of shells are those that double precision gives.
+  static constexpr bool has_exact_shells = true;
+  /// A neighbour on the frame's z axis has no azimuth.
+  static constexpr bool has_poles = false;
+
+  /// Where an angle from +z (over pi) lies along the elevation axis, both 0..1.
+  [[nodiscard]] static simd::F32 elevation(simd::F32 from_top) noexcept { return from_top; }
+  /// From numbers of cells, times the axis' unit, to fixed-point positions on grid axes.
+  [[nodiscard]] static simd::I32 position(simd::F32 scaled) noexcept { return truncate_to_int(scaled); }
+  /// From a signal, 0..1, to the position on the histogram's axis.
+  template <class Axis>
+  [[nodiscard]] static simd::I32 bin_position(simd::F32 signal) noexcept {
+    return truncate_to_int(signal * simd::all(static_cast<float>(Axis::cells) * Axis::one));
+  }
+};
+
+/// The cells of SHOT and CSHOT in PCL 1.13: elevation from the frame's -z up, a border belongs to the cell below it (a
+/// neighbour at R / 2 to the inner shell, one at z = 0 to the lower half), histograms fastest, then elevation, radius
+/// and azimuth, and one value more than a histogram has bins, because those are the distances of their middles.
+struct ShotCells {
+  template <class Grid>
+  static constexpr CellStrides strides{Grid::elevation, 1, Grid::radial* Grid::elevation};
+  [[nodiscard]] static constexpr int values(int bins) noexcept { return bins + 1; }
+
+  static constexpr float copies_d2 = 1e-30f;
+  static constexpr std::uint32_t min_neighbors = 5;
+  static constexpr bool has_exact_shells = false;
+  static constexpr bool has_poles = true;
+
+  [[nodiscard]] static simd::F32 elevation(simd::F32 from_top) noexcept { return simd::all(1.0f) - from_top; }
+  [[nodiscard]] static simd::I32 position(simd::F32 scaled) noexcept {
+    return truncate_to_int(simd::max(scaled, simd::all(1.0f))) - simd::all_int(1);
+  }
+  template <class Axis>
+  [[nodiscard]] static simd::I32 bin_position(simd::F32 signal) noexcept {
+    constexpr std::int32_t middle = std::int32_t{1} << (Axis::bits - 1);
+    return truncate_to_int(signal * simd::all(static_cast<float>(Axis::cells - 1) * Axis::one)) + simd::all_int(middle);
+  }
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/grid.hpp: the spherical grid of a part, and how wide its shells are.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// Divisions of the support sphere: `Radial` shells, `Elevation` cells between the frame's +z and -z, `Azimuth` cells
+/// counter-clockwise from the frame's -x. The paper's r, e, a (equation 5): n = r * e * a cells. How they are numbered
+/// and laid out is the convention's business (cells.hpp).
 template <int Radial, int Elevation, int Azimuth>
 struct SphericalGrid {
   static_assert(Radial >= 1 && Elevation >= 1 && Azimuth >= 1,
@@ -1669,15 +1773,12 @@ struct SphericalGrid {
   static constexpr int elevation = Elevation;
   static constexpr int azimuth = Azimuth;
   static constexpr int cells = Radial * Elevation * Azimuth;
-
-  /// Position of a cell in the published layout: radius fastest, azimuth slowest.
-  [[nodiscard]] static constexpr int index(int r, int e, int a) noexcept { return r + Radial * (e + Elevation * a); }
 };
 
 /// Shells of equal width: the published default. `u` is the distance over the support radius, in [0, 1]; `shell` is how
 /// much one shell counts.
 struct LinearRadius {
-  static constexpr bool below_zero = false;
+  static constexpr BelowZero below_zero = BelowZero::never;
   /// All borders and middles of shells are multiples of 1 / borders.
   static constexpr int borders(int shells) noexcept { return 2 * shells; }
   template <int Shells>
@@ -1692,7 +1793,7 @@ template <int Numerator = 1, int Denominator = 4>
 struct LogRadius {
   static_assert(0 < Numerator && 100LL * Numerator <= 99LL * Denominator,
                 "LogRadius<N, D> supports ratios 0 < N / D <= 0.99");
-  static constexpr bool below_zero = true;
+  static constexpr BelowZero below_zero = BelowZero::first_cell;
   static constexpr int borders(int) noexcept { return 1; }  // in float's own rounding
   template <int Shells>
   [[nodiscard]] static simd::F32 position(simd::F32 u, float shell) noexcept {
@@ -1745,22 +1846,6 @@ template <int Count, class Function>
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
-/// What lies beyond the last cell of an axis: nothing (radius, elevation, signal) or the first cell (azimuth).
-enum class Beyond { nothing, first_cell };
-
-/// One axis of a part: its number of cells, the distance of two neighbouring cells in the descriptor, and its ends.
-/// Positions along it are fixed-point numbers of cells with `Bits` bits behind the point. They may lie below zero, by
-/// as much as a cell, only where `BelowZero` says so.
-template <int Cells, int Stride, Beyond End, int Bits, bool BelowZero = false>
-struct Axis {
-  static constexpr int cells = Cells;
-  static constexpr int stride = Stride;
-  static constexpr Beyond end = End;
-  static constexpr int bits = Bits;
-  static constexpr float one = static_cast<float>(std::int32_t{1} << Bits);  ///< a whole cell
-  static constexpr bool below_zero = BelowZero;
-};
-
 /// The fixed-point unit of all votes: `one`, a power of two, is a whole share.
 struct VoteUnit {
   int bits;
@@ -1788,7 +1873,7 @@ namespace detail {
 template <class Axis>
 [[nodiscard]] inline simd::I32 cell_of(simd::I32 position) noexcept {
   const simd::I32 cell = simd::small_min(simd::shift_right(position, Axis::bits), simd::all_int(Axis::cells - 1));
-  return Axis::below_zero ? simd::small_max(cell, simd::all_int(0)) : cell;
+  return Axis::below_zero == BelowZero::never ? cell : simd::small_max(cell, simd::all_int(0));
 }
 
 template <int Factor>
@@ -1833,6 +1918,13 @@ template <class Axis>
   return {index, drop(alone, times<Axis::stride>(direction)), twice_partner, alone};
 }
 
+/// The share of a position in the cell it lies in.
+template <class Axis>
+[[nodiscard, gnu::always_inline]] inline Share share_in_cell(simd::I32 position, const VoteUnit& unit) noexcept {
+  const simd::I32 cell = cell_of<Axis>(position);
+  return share<Axis>(cell, position - simd::shift_left(cell, Axis::bits), unit);
+}
+
 template <int Axes>
 [[nodiscard]] inline simd::I32 primary_index(const Share (&shares)[Axes]) noexcept {
   simd::I32 index = shares[0].cell;
@@ -1857,7 +1949,7 @@ struct AdditiveVoting {
   template <class Axis>
   [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
     simd::I32 fraction = position & simd::all_int((std::int32_t{1} << Axis::bits) - 1);
-    if constexpr (Axis::below_zero) {
+    if constexpr (Axis::below_zero != BelowZero::never) {
       const simd::Mask below = is_negative(position);
       fraction = keep(below, position) + drop(below, fraction);
     }
@@ -1892,6 +1984,57 @@ struct AdditiveVoting {
 /// The published rule to the last quirk: the library's default.
 using PublishedVoting = AdditiveVoting<true>;
 
+/// SHOT's rule: each axis votes by itself. The shares of all axes ADD UP in the primary cell, as in AdditiveVoting, but
+/// an axis' partner gets that axis' share alone. At most 1 + N cells a point; a vote beyond the ends of radius,
+/// elevation or histogram is lost. `WrapLastBin` is a defect of PCL, in whose code the bins of a histogram are counted
+/// one short: a vote from the last bin but one up to the last one goes to the first one instead.
+template <bool WrapLastBin>
+struct SeparateVoting {
+  template <int Axes>
+  static constexpr int votes = Axes + 1;
+
+  template <class Axis>
+  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
+    Share share = detail::share_in_cell<Axis>(position, unit);
+    if constexpr (Axis::below_zero == BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
+      const simd::Mask nowhere = is_negative(position);
+      share.twice_partner = drop(nowhere, share.twice_partner) + keep(nowhere, simd::all_int(2 * unit.one));
+      share.alone = share.alone | nowhere;
+    }
+    return share;
+  }
+
+  template <class... AllAxes>
+  [[nodiscard, gnu::always_inline]] static Votes<sizeof...(AllAxes) + 1> combine(
+      const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
+    using simd::all_int;
+    constexpr int axes = sizeof...(AllAxes);
+    constexpr bool may_be_alone[] = {AllAxes::cells == 1 || AllAxes::end == Beyond::nothing ||
+                                     AllAxes::below_zero == BelowZero::nowhere...};
+    constexpr int cells[] = {AllAxes::cells...};
+    simd::I32 twice_partners = shares[0].twice_partner;
+    detail::unroll<axes - 1>([&](auto i) { twice_partners = twice_partners + shares[i + 1].twice_partner; });
+
+    Votes<axes + 1> votes;
+    votes.index[0] = detail::primary_index(shares);
+    votes.weight[0] = all_int(axes * unit.one) - simd::shift_right(twice_partners, 1);
+    detail::unroll<axes>([&](auto i) {
+      const simd::I32 weight = simd::shift_right(shares[i].twice_partner, 1);
+      simd::I32 index = votes.index[0] + shares[i].step;
+      if constexpr (WrapLastBin && i == 3) {
+        constexpr std::int32_t last = cells[3] - 1;
+        index = index - keep(shares[3].cell + shares[3].step == all_int(last), all_int(last));
+      }
+      votes.index[i + 1] = index;
+      votes.weight[i + 1] = may_be_alone[i] ? drop(shares[i].alone, weight) : weight;
+    });
+    return votes;
+  }
+};
+
+using ShotVoting = SeparateVoting<false>;
+using PclVoting = SeparateVoting<true>;  ///< equal to PCL to the last quirk: for what is compared with PCL's output
+
 /// The paper's equation (2): a point counts once, in the cell it falls into.
 struct HardVoting {
   template <int Axes>
@@ -1919,8 +2062,7 @@ struct MultilinearVoting {
 
   template <class Axis>
   [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
-    const simd::I32 cell = detail::cell_of<Axis>(position);
-    Share share = detail::share<Axis>(cell, position - simd::shift_left(cell, Axis::bits), unit);
+    Share share = detail::share_in_cell<Axis>(position, unit);
     share.twice_partner = drop(share.alone, share.twice_partner);
     return share;
   }
@@ -1956,18 +2098,33 @@ inline namespace SHORTSHOT_ISA {
 
 /// Signal of SSH: none. Every point counts as one, a cell holds a plain sum.
 struct Occupancy {
+  static constexpr bool has_histogram = false;
   static constexpr int bins = 1;
   static constexpr bool needs_colors = false;
+  static constexpr bool needs_normals = false;
   using Rule = void;  // no colours, no rule to convert them
 };
 
+/// Signal of SHOT: the cosine of the angle between a point's normal and the frame's z axis, -1 to 1, over `Bins` bins.
+template <int Bins>
+struct NormalCosine {
+  static_assert(Bins >= 1 && Bins <= 1023, "NormalCosine<Bins> supports 1 to 1023 histogram bins");
+  static constexpr bool has_histogram = true;
+  static constexpr int bins = Bins;
+  static constexpr bool needs_colors = false;
+  static constexpr bool needs_normals = true;
+  using Rule = void;
+};
+
 /// Signal of CSHOT and SCSH: the CIELAB distance between a point's colour and the key point's, over `Bins` bins of
-/// equal width. `LabRule` is the colour conversion (PublishedLab or PclLab).
+/// equal width. `LabRule` is the colour conversion (PublishedLab, CshotLab or PclLab).
 template <int Bins, class LabRule = PublishedLab>
 struct ColorDistance {
   static_assert(Bins >= 1 && Bins <= 1024, "ColorDistance<Bins> supports 1 to 1024 histogram bins");
+  static constexpr bool has_histogram = true;
   static constexpr int bins = Bins;
   static constexpr bool needs_colors = true;
+  static constexpr bool needs_normals = false;
   using Rule = LabRule;
 };
 
@@ -1984,27 +2141,40 @@ constexpr int position_bits(Cells... cells) noexcept {
 }  // namespace detail
 
 /// A spherical grid with a histogram of one signal in every cell.
-/// Layout: histogram bin fastest, then radius, elevation, azimuth.
-template <class GridType, class SignalType, class RadiusScale = LinearRadius>
+/// Layout: histogram bin fastest, then radius, elevation, azimuth (PublishedCells) or elevation, radius, azimuth
+/// (ShotCells).
+template <class GridType, class SignalType, class RadiusScale = LinearRadius, class CellConvention = PublishedCells>
 struct Part {
   using Grid = GridType;
   using Signal = SignalType;
   using Scale = RadiusScale;
-  static constexpr int size = Grid::cells * Signal::bins;
-  static constexpr bool has_histogram = Signal::bins > 1 || Signal::needs_colors;
+  using Cells = CellConvention;
+  static constexpr bool has_histogram = Signal::has_histogram;
+  static constexpr int values = has_histogram ? Cells::values(Signal::bins) : 1;  ///< of one cell
+  static constexpr int size = Grid::cells * values;
 
   /// Position of one value within the part.
   [[nodiscard]] static constexpr int index(int r, int e, int a, int bin = 0) noexcept {
-    return bin + Signal::bins * Grid::index(r, e, a);
+    constexpr CellStrides cells = Cells::template strides<Grid>;
+    return bin + values * (r * cells.radial + e * cells.elevation + a * cells.azimuth);
   }
 
   /// Bits of positions behind the point: what int32 has room for on the finest axis. No bit of a float is lost that
   /// could matter.
-  static constexpr int bits = detail::position_bits(Grid::radial, Grid::elevation, Grid::azimuth, Signal::bins);
-  using RadialAxis = Axis<Grid::radial, Signal::bins, Beyond::nothing, bits, Scale::below_zero>;
-  using ElevationAxis = Axis<Grid::elevation, Signal::bins * Grid::radial, Beyond::nothing, bits>;
-  using AzimuthAxis = Axis<Grid::azimuth, Signal::bins * Grid::radial * Grid::elevation, Beyond::first_cell, bits>;
-  using SignalAxis = Axis<Signal::bins, 1, Beyond::nothing, bits>;
+  static constexpr int grid_bits = detail::position_bits(Grid::radial, Grid::elevation, Grid::azimuth);
+  static constexpr int bits = detail::position_bits(1 << (30 - grid_bits), values);
+
+  /// Axes of the grid if every cell of it had `Values` values.
+  template <int Values = values>
+  using RadialAxis =
+      Axis<Grid::radial, Values * Cells::template strides<Grid>.radial, Beyond::nothing, grid_bits, Scale::below_zero>;
+  template <int Values = values>
+  using ElevationAxis =
+      Axis<Grid::elevation, Values * Cells::template strides<Grid>.elevation, Beyond::nothing, grid_bits>;
+  template <int Values = values>
+  using AzimuthAxis = Axis<Grid::azimuth, Values * Cells::template strides<Grid>.azimuth, Beyond::first_cell, grid_bits,
+                           Cells::has_poles ? BelowZero::nowhere : BelowZero::never>;
+  using SignalAxis = Axis<values, 1, Beyond::nothing, bits>;
 };
 
 namespace detail {
@@ -2021,6 +2191,21 @@ struct LabRuleOf<Signal, Others...> {
   static_assert(std::is_void<Mine>::value || std::is_void<Next>::value || std::is_same<Mine, Next>::value,
                 "Descriptor supports one colour conversion for all its parts");
   using type = std::conditional_t<std::is_void<Mine>::value, Next, Mine>;
+};
+
+/// Do all of these parts share their points among the same cells?
+template <class... Parts>
+struct HaveOneGrid : std::false_type {};
+template <class First, class... Others>
+struct HaveOneGrid<First, Others...>
+    : std::bool_constant<((std::is_same<typename First::Grid, typename Others::Grid>::value &&
+                           std::is_same<typename First::Scale, typename Others::Scale>::value) &&
+                          ...)> {};
+
+/// The first of some types.
+template <class First, class...>
+struct FirstOf {
+  using type = First;
 };
 
 /// The smallest common multiple, up to 2^20: as far as floats tell multiples of its inverse apart.
@@ -2045,7 +2230,12 @@ struct Descriptor {
   static_assert(size <= 65536, "Descriptor supports up to 65536 values");
 
   static constexpr bool needs_colors = (Parts::Signal::needs_colors || ...);
+  static constexpr bool needs_normals = (Parts::Signal::needs_normals || ...);
   using LabRule = typename detail::LabRuleOf<typename Parts::Signal...>::type;
+
+  using Cells = typename detail::FirstOf<typename Parts::Cells...>::type;
+  static_assert((std::is_same<typename Parts::Cells, Cells>::value && ...),
+                "Descriptor supports one cell convention for all its parts");
 
   /// Fewest bits behind the point of positions along its axes.
   static constexpr int position_bits = [] {
@@ -2059,7 +2249,7 @@ struct Descriptor {
   static constexpr int shell_borders = [] {
     int borders = 1;
     ((borders = detail::common_multiple(borders, Parts::Scale::borders(Parts::Grid::radial))), ...);
-    return borders;
+    return Cells::has_exact_shells ? borders : 1;
   }();
 
   /// First value of part `i` (of `parts` ones), and the end of the last part.
@@ -2082,12 +2272,33 @@ template <class ShapeGrid, class ColorGrid, int Bins, class Voting = PublishedVo
 using Scsh = Descriptor<Voting, Part<ShapeGrid, Occupancy, RadiusScale>,
                         Part<ColorGrid, ColorDistance<Bins, LabRule>, RadiusScale>>;
 
+/// SHOT: histograms of how normals lean against the frame's z axis. Needs points and normals. `Bins` as PCL counts
+/// them: a histogram has one value more.
+template <class Grid, int Bins, class Voting = ShotVoting, class RadiusScale = LinearRadius>
+using Shot = Descriptor<Voting, Part<Grid, NormalCosine<Bins>, RadiusScale, ShotCells>>;
+
+/// CSHOT: SHOT, and histograms of colour distance on the same grid. Needs points, normals and colours.
+template <class Grid, int ShapeBins, int ColorBins, class Voting = ShotVoting, class LabRule = CshotLab,
+          class RadiusScale = LinearRadius>
+using Cshot = Descriptor<Voting, Part<Grid, NormalCosine<ShapeBins>, RadiusScale, ShotCells>,
+                         Part<Grid, ColorDistance<ColorBins, LabRule>, RadiusScale, ShotCells>>;
+
 using Ssh32 = Ssh<SphericalGrid<2, 2, 8>>;
 using Ssh96 = Ssh<SphericalGrid<3, 4, 8>>;
 using Scsh336 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;
 using Scsh696 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 6>, 25>;
 
-static_assert(Ssh32::size == 32 && Ssh96::size == 96 && Scsh336::size == 336 && Scsh696::size == 696,
+/// SHOT and CSHOT in PCL's sizes and layout, without its two defects: the last bin of a histogram gets its neighbour's
+/// votes (PclVoting says what PCL does), and white has a colour of its own (PclLab).
+using Shot352 = Shot<SphericalGrid<2, 2, 8>, 10>;
+using Cshot1344 = Cshot<SphericalGrid<2, 2, 8>, 10, 30>;
+
+/// The same as PCL 1.13 computes them, defects included: for what is compared with descriptors that PCL has made.
+using PclShot352 = Shot<SphericalGrid<2, 2, 8>, 10, PclVoting>;
+using PclCshot1344 = Cshot<SphericalGrid<2, 2, 8>, 10, 30, PclVoting, PclLab>;
+
+static_assert(Ssh32::size == 32 && Ssh96::size == 96 && Scsh336::size == 336 && Scsh696::size == 696 &&
+                  Shot352::size == 352 && Cshot1344::size == 1344,
               "the published sizes");
 
 }  // namespace SHORTSHOT_ISA
@@ -2681,26 +2892,31 @@ inline constexpr std::uint32_t chunk_size = 64;
 static_assert(chunk_size % simd::lanes == 0, "registers do not reach beyond the end of a chunk");
 
 /// A chunk of neighbours in the frame's spherical coordinates. Only those that are described: passes need no masks.
+template <bool WithNormals>
 struct Chunk {
   std::uint32_t size;
-  std::uint32_t index[chunk_size];    ///< in the cloud
-  float coordinates[3 * chunk_size];  // one array, so that one register holds the place in all
+  std::uint32_t index[chunk_size];                        ///< in the cloud
+  float coordinates[(WithNormals ? 4 : 3) * chunk_size];  // one array, so that one register holds the place in all
 
   /// From neighbour `i` on: the distance over the radius, 0..1; the angle from +z over pi, 0..1; and the angle from -x,
-  /// counter-clockwise, in turns, 0..1.
+  /// counter-clockwise, in turns, 0..1, or below 0 where a convention with poles has none.
   [[nodiscard]] const float* distance(std::uint32_t i) const noexcept { return coordinates + i; }
   [[nodiscard]] const float* elevation(std::uint32_t i) const noexcept { return coordinates + i + chunk_size; }
   [[nodiscard]] const float* azimuth(std::uint32_t i) const noexcept {
     return coordinates + i + 2 * std::size_t{chunk_size};
   }
+  /// The normal's component along z, -1..1.
+  [[nodiscard]] const float* cosine(std::uint32_t i) const noexcept {
+    static_assert(WithNormals, "there is one only where a part asks for normals");
+    return coordinates + i + 3 * std::size_t{chunk_size};
+  }
 };
 
-/// Closest squared distance that is described: the published code skips the key point and its copies by this bound.
-inline constexpr float min_described_d2 = 1e-15f;
-
-/// Which neighbours with these squared distances are described? Those beyond the radius are there for a wider frame.
+/// Which neighbours with these squared distances are described? Not the key point and its copies; and those beyond the
+/// radius are there for a wider frame.
+template <class Cells>
 [[nodiscard]] inline simd::Mask are_described(simd::F32 d2, Radius radius) noexcept {
-  return (d2 > simd::all(min_described_d2)) & (d2 < simd::all(radius.squared));
+  return (d2 > simd::all(Cells::copies_d2)) & (d2 < simd::all(radius.squared));
 }
 
 /// Which of these distances (over the radius) are as close to the border or the middle of a shell as their rounding?
@@ -2723,6 +2939,11 @@ struct AxisLanes {
   explicit AxisLanes(const float (&axis)[3]) noexcept
       : x(simd::all(axis[0])), y(simd::all(axis[1])), z(simd::all(axis[2])) {}
   [[nodiscard]] simd::F32 along(const Offsets& v) const noexcept { return (v.dx * x + v.dz * z) + v.dy * y; }
+  [[nodiscard]] simd::F32 along(const PointLanes& v) const noexcept { return (v.x * x + v.z * z) + v.y * y; }
+};
+
+struct FrameLanes {
+  AxisLanes x, y, z;
 };
 
 /// Distances over the radius. Points of a regular grid lie exactly on the borders of shells, where one bit decides
@@ -2765,38 +2986,65 @@ struct Stretches {
   return {chunk * chunk_size, 0, 1, neighbors - chunk * chunk_size};
 }
 
+/// One register of neighbours in the coordinates of a chunk, and which of them are described.
+struct Located {
+  simd::F32 distance, elevation, azimuth, cosine;
+  simd::Mask described;
+};
+
+template <class D, class Normals>
+[[nodiscard, gnu::always_inline]] inline Located locate_register(const Offsets& v, simd::I32 index,
+                                                                 const FrameLanes& frame, Radius radius,
+                                                                 const Normals& normals) noexcept {
+  using simd::all;
+  const Local local{frame.x.along(v), frame.y.along(v), frame.z.along(v)};
+  Located located{};
+  located.distance = relative_distance<D::shell_borders>(v, local, radius);
+  const simd::F32 from_axis = simd::sqrt(local.x * local.x + local.y * local.y);
+  located.elevation = math::elevation(from_axis, local.z);
+  located.azimuth = math::azimuth(local.x, local.y);
+  located.described = are_described<typename D::Cells>(v.d2, radius);
+  if constexpr (D::Cells::has_poles) {
+    located.azimuth = select(from_axis > all(0.0f), located.azimuth, all(-1.0f));
+  }
+  if constexpr (D::needs_normals) {
+    std::uint32_t indices[simd::lanes];
+    simd::store(indices, index);
+    const simd::F32 cosine = frame.z.along(normals(indices));
+    located.described = located.described & (all(3e38f) > simd::abs(cosine));  // false for NaN
+    located.cosine = simd::max(simd::min(cosine, all(1.0f)), all(-1.0f));
+  }
+  return located;
+}
+
 /// Neighbours into a chunk.
-template <int Borders>
-inline void locate(const Neighborhood& all, const Stretches& stretches, const Frame& frame, Radius radius,
-                   Chunk& chunk) noexcept {
+template <class D, class Normals>
+[[gnu::noinline]] inline void locate(const Neighborhood& all, const Stretches& stretches, const Frame& frame,
+                                     Radius radius, const Normals& normals, Chunk<D::needs_normals>& chunk) noexcept {
   const Neighborhood n = all;  // a local: no store to the chunk can change its pointers
-  const AxisLanes x_axis(frame.x);
-  const AxisLanes y_axis(frame.y);
-  const AxisLanes z_axis(frame.z);
+  const FrameLanes axes{AxisLanes(frame.x), AxisLanes(frame.y), AxisLanes(frame.z)};
   std::uint32_t size = 0;
   for (std::uint32_t k = 0; k < stretches.count; ++k) {
     const std::uint32_t first = stretches.first + k * stretches.stride;
     const std::uint32_t end = first + stretches.length;
     for (std::uint32_t i = first; i < end; i += simd::lanes) {
-      const Offsets v = load_offsets(n, i);
       const simd::I32 index = load_indices(n, i);
-      const Local local{x_axis.along(v), y_axis.along(v), z_axis.along(v)};
-      const simd::F32 distance = relative_distance<Borders>(v, local, radius);
-      const simd::F32 elevation = math::elevation(simd::sqrt(local.x * local.x + local.y * local.y), local.z);
-      const simd::F32 azimuth = math::azimuth(local.x, local.y);
+      const Located now = locate_register<D>(load_offsets(n, i), index, axes, radius, normals);
       const auto append = [&](const auto&... packing) {
         simd::store(chunk.index + size, index, packing...);
         float* const coordinates = chunk.coordinates + size;
-        simd::store(coordinates, distance, packing...);
-        simd::store(coordinates + chunk_size, elevation, packing...);
-        simd::store(coordinates + 2 * std::size_t{chunk_size}, azimuth, packing...);
+        simd::store(coordinates, now.distance, packing...);
+        simd::store(coordinates + chunk_size, now.elevation, packing...);
+        simd::store(coordinates + 2 * std::size_t{chunk_size}, now.azimuth, packing...);
+        if constexpr (D::needs_normals) {
+          simd::store(coordinates + 3 * std::size_t{chunk_size}, now.cosine, packing...);
+        }
       };
-      const simd::Mask described = are_described(v.d2, radius);
-      if (every(described)) {
+      if (every(now.described)) {
         append();
         size += static_cast<std::uint32_t>(simd::lanes);
       } else {
-        const simd::Packing packing = simd::packing(described);
+        const simd::Packing packing = simd::packing(now.described);
         append(packing);
         size += packing.count;
       }
@@ -2808,6 +3056,29 @@ inline void locate(const Neighborhood& all, const Stretches& stretches, const Fr
 }
 
 }  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/normal_source.hpp: where a descriptor's normals come from.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// The normals of a cloud's own channel: what a NormalCosine looks at. A neighbour whose normal is not finite has none.
+struct CloudNormals {
+  CloudView cloud;
+  [[nodiscard]] Status status() const noexcept { return has_normals(cloud) ? Status::ok : Status::missing_normals; }
+  /// One register of normals by index.
+  [[nodiscard, gnu::always_inline]] PointLanes operator()(const std::uint32_t* index) const noexcept {
+    return read_lanes(cloud.normals, [index](std::size_t lane) { return std::size_t{index[lane]}; });
+  }
+};
+
+/// For descriptors without normals.
+struct NoNormals {
+  [[nodiscard]] static Status status() noexcept { return Status::ok; }
+};
+
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
@@ -2830,16 +3101,20 @@ inline constexpr int axes_of = Part::has_histogram ? 4 : 3;
 template <class Voting, class Part>
 inline constexpr int votes_of = Voting::template votes<axes_of<Part>>;
 
-/// Positions along an axis, fixed-point, from fractions of it.
-template <class Axis>
-[[nodiscard]] inline simd::I32 positions(simd::F32 fractions) noexcept {
-  return truncate_to_int(fractions * simd::all(static_cast<float>(Axis::cells) * Axis::one));
-}
-
 /// The signal of Occupancy: none.
 struct NoSignal {
   template <class Colors>
   explicit NoSignal(const Colors&) noexcept {}
+};
+
+/// The signal of NormalCosine, 0..1.
+struct NormalSignal {
+  template <class Colors>
+  explicit NormalSignal(const Colors&) noexcept {}
+  template <class Chunk>
+  [[nodiscard]] simd::F32 operator()(const Chunk& chunk, std::uint32_t i) const noexcept {
+    return simd::load(chunk.cosine(i)) * simd::all(0.5f) + simd::all(0.5f);
+  }
 };
 
 /// The signal of ColorDistance: how far neighbours' colours are from the key point's.
@@ -2848,29 +3123,51 @@ struct ColorSignal {
   Colors colors;  // a copy: no store to the chunk can change it
   LabLanes reference;
   explicit ColorSignal(const Colors& source) noexcept : colors(source), reference(in_all_lanes(source.reference)) {}
+  template <class Chunk>
   [[nodiscard]] simd::F32 operator()(const Chunk& chunk, std::uint32_t i) const noexcept {
     return color_distances(colors_at(colors, chunk.index + i), reference);
   }
 };
 
-/// The votes of one register of neighbours, from `i` on, for a part.
-template <class Voting, class Part, class Signal>
-[[nodiscard, gnu::always_inline]] inline auto vote(const Chunk& chunk, std::uint32_t i, const Signal& signal,
-                                                   const VoteUnit& unit) noexcept {
-  using R = typename Part::RadialAxis;
-  using E = typename Part::ElevationAxis;
-  using A = typename Part::AzimuthAxis;
+template <class Part, class Colors>
+using SignalOf = std::conditional_t<Part::Signal::needs_colors, ColorSignal<Colors>,
+                                    std::conditional_t<Part::Signal::needs_normals, NormalSignal, NoSignal>>;
+
+/// Shares of one register of neighbours along the axes of a grid.
+struct GridShares {
+  simd::I32 cell;  ///< of all three axes
+  Share axes[3];   ///< their cells left out
+};
+
+/// The shares of a chunk's neighbours, from `i` on, in the grid of a part if every cell of it had `Values` values.
+template <class Voting, class Part, int Values, class Chunk>
+[[nodiscard, gnu::always_inline]] inline GridShares share_among_cells(const Chunk& chunk, std::uint32_t i,
+                                                                      const VoteUnit& unit) noexcept {
+  using simd::all;
+  using R = typename Part::template RadialAxis<Values>;
+  using E = typename Part::template ElevationAxis<Values>;
+  using A = typename Part::template AzimuthAxis<Values>;
+  using Cells = typename Part::Cells;
   const simd::F32 shells = Part::Scale::template position<R::cells>(simd::load(chunk.distance(i)), R::one);
-  const Share r = Voting::template split<R>(truncate_to_int(shells), unit);
-  const Share e = Voting::template split<E>(positions<E>(simd::load(chunk.elevation(i))), unit);
-  const Share a = Voting::template split<A>(positions<A>(simd::load(chunk.azimuth(i))), unit);
-  if constexpr (Part::has_histogram) {
-    using S = typename Part::SignalAxis;
-    const Share s = Voting::template split<S>(positions<S>(signal(chunk, i)), unit);
-    return Voting::template combine<R, E, A, S>({r, e, a, s}, unit);
-  } else {
-    return Voting::template combine<R, E, A>({r, e, a}, unit);
-  }
+  const simd::F32 elevation = Cells::elevation(simd::load(chunk.elevation(i)));
+  const simd::F32 azimuth = simd::load(chunk.azimuth(i));
+  const auto scaled = [](simd::F32 fraction, int cells, float one) {
+    return Cells::position(fraction * all(static_cast<float>(cells) * one));
+  };
+  simd::I32 around = scaled(azimuth, A::cells, A::one);
+  if constexpr (Cells::has_poles) around = invert(is_negative(bits_of(azimuth)), around);  // 0 to -1: nowhere
+  GridShares shares{
+      {},
+      {Voting::template split<R>(Cells::position(shells), unit),
+       Voting::template split<E>(scaled(elevation, E::cells, E::one), unit), Voting::template split<A>(around, unit)}};
+  shares.cell = (shares.axes[0].cell + shares.axes[1].cell) + shares.axes[2].cell;
+  return shares;
+}
+
+/// A share of `Factor` times as many values a cell.
+template <int Factor>
+[[nodiscard, gnu::always_inline]] inline Share widened(const Share& share) noexcept {
+  return {simd::all_int(0), times<Factor>(share.step), share.twice_partner, share.alone};
 }
 
 /// The integers that votes are added to live in the caller's output array, bit for bit, until they are normalised: no
@@ -2882,18 +3179,59 @@ inline void add_bits(float* value, std::int32_t weight) noexcept {
   std::memcpy(value, &sum, sizeof sum);
 }
 
-/// The votes of a chunk, lane-wise: `Count` arrays of positions in the part, and as many of weights.
-template <int Count>
+/// The votes of a chunk for one part, lane-wise: `count` arrays of positions in the part, and as many of weights. Votes
+/// go through memory: taken out of registers lane by lane they would cost twice as much.
+template <class Voting, class PartType, class Signal>
 struct ChunkVotes {
-  std::int32_t index[Count * chunk_size];
-  std::int32_t weight[Count * chunk_size];
+  using Part = PartType;
+  static constexpr int count = votes_of<Voting, Part>;
+  float* values;  ///< the part's place in the descriptor
+  Signal signal;
+  std::int32_t index[count * chunk_size];
+  std::int32_t weight[count * chunk_size];
+
+  template <class Colors>
+  ChunkVotes(float* part, const Colors& colors) noexcept : values(part), signal(colors) {}
+
+  /// The votes of one register of neighbours, from `i` on, whose shares are those in the part's grid if every cell had
+  /// `Values` values.
+  template <int Values, class Chunk>
+  [[gnu::always_inline]] void cast(const Chunk& chunk, std::uint32_t i, const GridShares& grid,
+                                   const VoteUnit& unit) noexcept {
+    using R = typename Part::template RadialAxis<>;
+    using E = typename Part::template ElevationAxis<>;
+    using A = typename Part::template AzimuthAxis<>;
+    constexpr int factor = Part::values / Values;
+    Share r = widened<factor>(grid.axes[0]);
+    r.cell = times<factor>(grid.cell);
+    const Share e = widened<factor>(grid.axes[1]);
+    const Share a = widened<factor>(grid.axes[2]);
+    if constexpr (Part::has_histogram) {
+      using S = typename Part::SignalAxis;
+      const simd::I32 position = Part::Cells::template bin_position<S>(signal(chunk, i));
+      const Share s = Voting::template split<S>(position, unit);
+      store(i, Voting::template combine<R, E, A, S>({r, e, a, s}, unit));
+    } else {
+      store(i, Voting::template combine<R, E, A>({r, e, a}, unit));
+    }
+  }
+
+ private:
+  [[gnu::always_inline]] void store(std::uint32_t i, const Votes<count>& votes) noexcept {
+    unroll<count>([&](auto k) {
+      simd::store(index + i + k * chunk_size, votes.index[k]);
+      simd::store(weight + i + k * chunk_size, votes.weight[k]);
+    });
+  }
 };
 
 /// Neighbours from the four stretches of a chunk are taken in turn.
-template <int Count>
-inline void scatter(const ChunkVotes<Count>& votes, std::uint32_t size, float* part) noexcept {
+template <class Votes>
+inline void scatter(const Votes& votes, std::uint32_t size) noexcept {
+  float* const part = votes.values;
   const auto add = [&](std::uint32_t i) {
-    unroll<Count>([&](auto k) { add_bits(part + votes.index[k * chunk_size + i], votes.weight[k * chunk_size + i]); });
+    unroll<Votes::count>(
+        [&](auto k) { add_bits(part + votes.index[k * chunk_size + i], votes.weight[k * chunk_size + i]); });
   };
   constexpr std::uint32_t quarter = chunk_size / 4;  // a stretch of a full chunk; any other split would do
   static_assert(stretches_of_full_chunk == 4, "what is written out below");
@@ -2906,32 +3244,41 @@ inline void scatter(const ChunkVotes<Count>& votes, std::uint32_t size, float* p
   }
 }
 
-/// One chunk into one part. Votes go through memory: taken out of registers lane by lane they would cost twice as much.
-template <class Voting, class Part, class Colors>
-inline void accumulate(const Chunk& chunk, const Colors& colors, VoteUnit unit, float* part) noexcept {
-  using Signal = std::conditional_t<Part::Signal::needs_colors, ColorSignal<Colors>, NoSignal>;
-  const Signal signal(colors);
+/// The greatest common divisor.
+constexpr int common_divisor(int a, int b) noexcept { return b == 0 ? a : common_divisor(b, a % b); }
+
+/// One chunk into parts that have one grid: points are shared among its cells once for all of them.
+template <class Voting, class Chunk, class First, class... Others>
+inline void accumulate(const Chunk& chunk, VoteUnit unit, First&& first, Others&&... others) noexcept {
+  using Part = typename std::decay_t<First>::Part;
+  constexpr int values = [] {
+    int divisor = Part::values;
+    ((divisor = common_divisor(divisor, std::decay_t<Others>::Part::values)), ...);
+    return divisor;
+  }();
   const std::uint32_t size = chunk.size;
-  constexpr int count = votes_of<Voting, Part>;
-  ChunkVotes<count> votes;
   for (std::uint32_t i = 0; i < size; i += simd::lanes) {
-    const Votes<count> now = vote<Voting, Part>(chunk, i, signal, unit);
-    std::int32_t* const index = votes.index + i;
-    std::int32_t* const weight = votes.weight + i;
-    unroll<count>([&](auto k) {
-      simd::store(index + k * chunk_size, now.index[k]);
-      simd::store(weight + k * chunk_size, now.weight[k]);
-    });
+    const GridShares shares = share_among_cells<Voting, Part, values>(chunk, i, unit);
+    first.template cast<values>(chunk, i, shares, unit);
+    (others.template cast<values>(chunk, i, shares, unit), ...);
   }
-  scatter(votes, size, part);
+  scatter(first, size);
+  (scatter(others, size), ...);
 }
 
-template <class Voting, class... Parts, class Colors>
-inline void accumulate_all(Descriptor<Voting, Parts...>, const Chunk& chunk, const Colors& colors, VoteUnit unit,
-                           float* out) noexcept {
+template <class Voting, class... Parts, std::size_t... I, class Chunk, class Colors>
+inline void accumulate_all(Descriptor<Voting, Parts...>, std::index_sequence<I...>, const Chunk& chunk,
+                           const Colors& colors, VoteUnit unit, float* out) noexcept {
   using D = Descriptor<Voting, Parts...>;
-  int part = 0;
-  (accumulate<Voting, Parts>(chunk, colors, unit, out + D::offset(part++)), ...);
+  if constexpr (HaveOneGrid<Parts...>::value) {
+    accumulate<Voting>(chunk, unit, ChunkVotes<Voting, Parts, SignalOf<Parts, Colors>>(out + D::offset(I), colors)...);
+  } else {
+    const auto accumulate_part = [&](auto part, float* place) {
+      using Part = decltype(part);
+      accumulate<Voting>(chunk, unit, ChunkVotes<Voting, Part, SignalOf<Part, Colors>>(place, colors));
+    };
+    (accumulate_part(Parts{}, out + D::offset(I)), ...);
+  }
 }
 
 /// Integers to floats of L2 norm 1. Squares are added up in eight places, whatever the number of lanes: the same order,
@@ -2963,42 +3310,69 @@ template <int Size>
   return Status::ok;
 }
 
+/// How many of the neighbours lie within the radius, the key point and its copies included?
+[[nodiscard]] inline std::uint32_t count_within(const Neighborhood& n, Radius radius) noexcept {
+  std::uint32_t count = 0;
+  for (std::uint32_t i = 0; i < n.size; ++i) count += n.d2[i] < radius.squared ? 1u : 0u;
+  return count;
+}
+
 }  // namespace detail
 
 /// Describe a gathered neighbourhood in a frame: the kernel of every descriptor.
 ///
-/// `n`       neighbours of one key point, gathered with at least `radius` (farther ones are left out); if they do not
+/// `n`        neighbours of one key point, gathered with at least `radius` (farther ones are left out); if they do not
 /// come
-///           from a search, d2 must be that of dx, dy and dz, and the indices must be ones that `colors` has
-/// `colors`  a source of Lab by index (RgbColors, LabColors, your own like them), or NoColors if D needs none
-/// `frame`   an orthonormal frame: estimate_frame(), or one you know
-/// `out`     D::size floats: the parts of D in order, L2 norm 1
+///            from a search, d2 must be that of dx, dy and dz, and the indices must be ones that `colors` and `normals`
+///            have
+/// `colors`   a source of Lab by index (RgbColors, LabColors, your own like them), or NoColors if D needs none
+/// `normals`  CloudNormals, or NoNormals if D needs none; a neighbour whose normal is not finite is left out
+/// `frame`    an orthonormal frame: estimate_frame(), or one you know
+/// `out`      D::size floats: the parts of D in order, L2 norm 1
 ///
-/// Source: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code (voting.hpp).
-/// There is no minimum of neighbours but one. Statuses: bad_radius, bad_frame, missing_colors, too_many_neighbors (over
-/// 2^24), too_few_neighbors (none but the key point and its copies); `out` is all zeros then, and never NaN. No
-/// allocation; reentrant; 2 to 17 KB of stack (5 for SCSH by the published rule). The result does not depend on the
-/// order of the neighbours.
-template <class D, class Colors>
-[[nodiscard]] inline Status describe(const Neighborhood& n, const Colors& colors, const Frame& frame, Radius radius,
-                                     float* out) noexcept {
+/// Source: SSH and SCSH: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code.
+/// SHOT and CSHOT: PCL 1.13's SHOTEstimation and SHOTColorEstimation. The rules are in cells.hpp and voting.hpp.
+/// Statuses: bad_radius, bad_frame, missing_colors, missing_normals, too_many_neighbors (over 2^24), too_few_neighbors
+/// (none to describe; for SHOT and CSHOT also fewer than five, the key point and its copies included); `out` is all
+/// zeros then, and never NaN. No allocation; reentrant; 2 to 17 KB of stack (5 for SCSH by the published rule, 7 for
+/// CSHOT). The result does not depend on the order of the neighbours.
+template <class D, class Colors, class Normals>
+[[nodiscard]] inline Status describe(const Neighborhood& n, const Colors& colors, const Normals& normals,
+                                     const Frame& frame, Radius radius, float* out) noexcept {
   static_assert(!D::needs_colors || !std::is_same<Colors, NoColors>::value,
                 "D has a colour part: describe() supports RgbColors, LabColors or another source of Lab by index");
+  static_assert(!D::needs_normals || !std::is_same<Normals, NoNormals>::value,
+                "D has a part of normals: describe() supports CloudNormals or another source of normals by index");
   static_assert(detail::has_rule_of<D, Colors>(nullptr), "describe() supports colours converted by D's own rule");
   std::memset(out, 0, D::size_bytes);
   Status status = check(radius);
   if (status == Status::ok) status = check(frame);
   if (status == Status::ok && D::needs_colors) status = colors.status();
+  if (status == Status::ok && D::needs_normals) status = normals.status();
   if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
   if (status != Status::ok) return status;
 
   const VoteUnit unit = detail::vote_unit<D::position_bits>(n.size);
-  detail::Chunk chunk;
+  detail::Chunk<D::needs_normals> chunk;
+  std::uint32_t described = 0;
   for (std::uint32_t i = 0; i * detail::chunk_size < n.size; ++i) {
-    detail::locate<D::shell_borders>(n, detail::stretches_of_chunk(i, n.size), frame, radius, chunk);
-    detail::accumulate_all(D{}, chunk, colors, unit, out);
+    detail::locate<D>(n, detail::stretches_of_chunk(i, n.size), frame, radius, normals, chunk);
+    detail::accumulate_all(D{}, std::make_index_sequence<D::parts>{}, chunk, colors, unit, out);
+    described += chunk.size;
+  }
+  constexpr std::uint32_t fewest = D::Cells::min_neighbors;
+  if (fewest > 0 && described < fewest && detail::count_within(n, radius) < fewest) {
+    std::memset(out, 0, D::size_bytes);
+    return Status::too_few_neighbors;
   }
   return detail::normalize<D::size>(out);
+}
+
+/// The same for descriptors without normals.
+template <class D, class Colors>
+[[nodiscard]] inline Status describe(const Neighborhood& n, const Colors& colors, const Frame& frame, Radius radius,
+                                     float* out) noexcept {
+  return describe<D>(n, colors, NoNormals{}, frame, radius, out);
 }
 
 }  // namespace SHORTSHOT_ISA
@@ -3040,6 +3414,7 @@ template <class D, class Search>
   if (status == Status::ok) status = check(support.frame_radius);
   if (status == Status::ok && support.viewpoint && !is_finite(*support.viewpoint)) status = Status::bad_viewpoint;
   if (status == Status::ok && D::needs_colors && !has_colors(cloud)) status = Status::missing_colors;
+  if (status == Status::ok && D::needs_normals && !has_normals(cloud)) status = Status::missing_normals;
   return status;
 }
 
@@ -3053,16 +3428,26 @@ template <class Search>
   return search.gather(center, wide_frame ? support.frame_radius : support.radius, n);
 }
 
+/// The source of a cloud's own normals.
+template <class D>
+[[nodiscard]] inline auto normals_of(const CloudView& cloud) noexcept {
+  if constexpr (D::needs_normals) {
+    return CloudNormals{cloud};
+  } else {
+    return NoNormals{};
+  }
+}
+
 /// Frame and kernel; for `colors` see describe().
 template <class D, class Colors>
-[[nodiscard]] inline Status describe_gathered(const Neighborhood& n, const Colors& colors, const Point& center,
-                                              const Support& support, float* out) noexcept {
+[[nodiscard]] inline Status describe_gathered(const CloudView& cloud, const Neighborhood& n, const Colors& colors,
+                                              const Point& center, const Support& support, Frame& frame,
+                                              float* out) noexcept {
   const Point* eye = support.viewpoint;
   const float towards[3] = {eye ? eye->x - center.x : 0.0f, eye ? eye->y - center.y : 0.0f,
                             eye ? eye->z - center.z : 0.0f};
-  Frame frame;
   const Status status = estimate_frame(n, support.frame_radius, frame, towards);  // all zeros: by vote
-  return status == Status::ok ? describe<D>(n, colors, frame, support.radius, out) : status;
+  return status == Status::ok ? describe<D>(n, colors, normals_of<D>(cloud), frame, support.radius, out) : status;
 }
 
 /// The colour source that reads a cloud's own bytes.
@@ -3100,15 +3485,16 @@ template <class D, class Search, std::size_t MaxNeighbors, class Finish>
 /// `out`        D::size floats: the descriptor, L2 norm 1, or all zeros if the status is not ok
 ///
 /// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint,
-/// missing_colors, invalid_keypoint, too_many_neighbors (the workspace is too small: Neighborhood::found of a gather()
-/// says what it takes), too_few_neighbors, ambiguous_frame; and what the search's build() returned, if not ok.
-/// No allocation; reentrant, one workspace per thread.
+/// missing_colors, missing_normals, invalid_keypoint, too_many_neighbors (the workspace is too small:
+/// Neighborhood::found of a gather() says what it takes), too_few_neighbors, ambiguous_frame; and what the search's
+/// build() returned, if not ok. No allocation; reentrant, one workspace per thread.
 template <class D, class Search, std::size_t MaxNeighbors>
 [[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
                                         const Support& support, Workspace<MaxNeighbors>& workspace,
                                         float* out) noexcept {
   return detail::describe_key<D>(cloud, search, key, support, workspace, out, [&](const auto& n, const auto& colors) {
-    return detail::describe_gathered<D>(n, colors, key.position, support, out);
+    Frame frame;
+    return detail::describe_gathered<D>(cloud, n, colors, key.position, support, frame, out);
   });
 }
 
@@ -3118,7 +3504,7 @@ template <class D, class Search, std::size_t MaxNeighbors>
                                         const Frame& frame, Radius radius, Workspace<MaxNeighbors>& workspace,
                                         float* out) noexcept {
   return detail::describe_key<D>(cloud, search, key, radius, workspace, out, [&](const auto& n, const auto& colors) {
-    return describe<D>(n, colors, frame, radius, out);
+    return describe<D>(n, colors, detail::normals_of<D>(cloud), frame, radius, out);
   });
 }
 
@@ -3589,7 +3975,7 @@ class Grid {
     const std::size_t n = points_;
     std::size_t i = 0;
     for (; i + simd::lanes <= n; i += simd::lanes) {
-      const PointLanes p = read_points(cloud_, [&](std::size_t lane) { return order[i + lane]; });
+      const PointLanes p = read_lanes(cloud_.points, [&](std::size_t lane) { return order[i + lane]; });
       simd::store(xyz + i, p.x);
       simd::store(xyz + n + i, p.y);
       simd::store(xyz + 2 * n + i, p.z);
@@ -4078,6 +4464,7 @@ struct Features {
 
   std::vector<float> values;             ///< size() * D::size, row by row; zeros where the status is not ok
   std::vector<Status> status;            ///< one per key point
+  std::vector<Frame> frames;             ///< the local reference frame of each; zeros where the status is not ok
   std::vector<std::uint32_t> neighbors;  ///< found within the larger radius, the key point itself included
 
   [[nodiscard]] std::size_t size() const noexcept { return status.size(); }
@@ -4109,8 +4496,9 @@ inline constexpr std::size_t color_block = 4096;
 
 /// Row `row` of the features but for the zeros of a failure. The workspace grows until the neighbours fit.
 template <class D, class Color, class Search>
-[[nodiscard]] Status extract_row(const Search& search, const KeyPoint& key, const Support& support,
-                                 GrowingWorkspace& workspace, Features<D, Color>& out, std::size_t row) {
+[[nodiscard]] Status extract_row(const CloudView& cloud, const Search& search, const KeyPoint& key,
+                                 const Support& support, GrowingWorkspace& workspace, Features<D, Color>& out,
+                                 std::size_t row) {
   if (!is_finite(key.position)) return Status::invalid_keypoint;
   Neighborhood n = workspace.neighborhood();
   Status status = gather(search, key.position, support, n);
@@ -4124,9 +4512,9 @@ template <class D, class Color, class Search>
   float* values = out.values.data() + row * static_cast<std::size_t>(D::size);
   if constexpr (D::needs_colors) {
     const StoredColors<Color> colors{out.scratch.lab.data(), out.scratch.to_lab(key.color)};
-    return describe_gathered<D>(n, colors, key.position, support, values);
+    return describe_gathered<D>(cloud, n, colors, key.position, support, out.frames[row], values);
   } else {
-    return describe_gathered<D>(n, NoColors{}, key.position, support, values);
+    return describe_gathered<D>(cloud, n, NoColors{}, key.position, support, out.frames[row], values);
   }
 }
 
@@ -4147,6 +4535,7 @@ template <class D, class Color, class Search, class KeyAt, class Threads>
   const Status usable = check<D>(cloud, search, support);
   out.status.assign(count, usable);
   out.neighbors.assign(count, 0);
+  out.frames.assign(count, Frame{});
   out.values.resize(count * row_size);
   if (usable != Status::ok) {
     std::fill(out.values.begin(), out.values.end(), 0.0f);
@@ -4167,8 +4556,10 @@ template <class D, class Color, class Search, class KeyAt, class Threads>
       KeyPoint key{};
       Status& status = out.status[row];
       status = Status::bad_keypoint;
-      if (key_at(row, key)) status = extract_row(search, key, support, scratch.workspaces[thread], out, row);
-      if (status != Status::ok) std::fill_n(out.values.data() + row * row_size, row_size, 0.0f);
+      if (key_at(row, key)) status = extract_row(cloud, search, key, support, scratch.workspaces[thread], out, row);
+      if (status == Status::ok) continue;
+      out.frames[row] = Frame{};
+      std::fill_n(out.values.data() + row * row_size, row_size, 0.0f);
     }
   });
   level(scratch.workspaces, out.neighbors);
@@ -4200,8 +4591,8 @@ template <class D, class Color, class Search, class KeyAt, class Threads>
 /// and TBB's run() is `tbb::parallel_for(0, n, [&](int) { work(); });`. A call runs at most two pieces of work on it.
 ///
 /// Returns ok if key points could be looked at at all, else why not, and every row has that status: empty_cloud,
-/// bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint, missing_colors, or what the
-/// search's build() returned.
+/// bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint, missing_colors,
+/// missing_normals, or what the search's build() returned.
 ///
 /// Allocates 12 bytes a point for colours (4 with Features<D, PackedLab>) and 16 KB, about 30 bytes for each neighbour
 /// of the largest neighbourhood and each thread, and the rows; with the same `out` again, nothing, until a frame needs

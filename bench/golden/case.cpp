@@ -202,6 +202,7 @@ void read_arrays(Case& c) {
   }
   if (const Array* points = c.find("points")) c.points = floats_of(*points);
   if (const Array* rgb = c.find("rgb")) c.rgb = bytes_of(*rgb);
+  if (const Array* normals = c.find("normals")) c.normals = floats_of(*normals);
   if (const Array* frames = c.find("frames")) c.frames = floats_of(*frames);
   if (const Array* keypoints = c.find("keypoints")) take_keypoints(c, *keypoints);
 }
@@ -215,8 +216,10 @@ const Array* Case::find(const std::string& name) const {
 
 shortshot::CloudView Case::cloud() const {
   const std::size_t size = points.size() / 3;
-  if (rgb.empty()) return shortshot::view_xyz(points.data(), size);
-  return shortshot::view_xyz_rgb(points.data(), rgb.data(), size);
+  shortshot::CloudView view =
+      rgb.empty() ? shortshot::view_xyz(points.data(), size) : shortshot::view_xyz_rgb(points.data(), rgb.data(), size);
+  if (!normals.empty()) view.normals = shortshot::view_xyz(normals.data(), size).points;
+  return view;
 }
 
 Case read_case(const std::string& folder) {

@@ -22,6 +22,7 @@ struct Case {
   // The inputs; empty if the folder has no such array.
   std::vector<float> points;
   std::vector<std::uint8_t> rgb;
+  std::vector<float> normals;            // NaN where a point has none
   std::vector<std::uint32_t> keypoints;  // indices of finite points
   std::vector<float> frames;             // nine floats per key point
 

@@ -117,6 +117,7 @@ void compare_row(std::size_t row, shortshot::Status status, const std::vector<fl
 void compare_descriptor(const Case& c, const Array& array, const DescriptorOutput& descriptor, Result& result) {
   result.note = lacking(c, {"points", "keypoints", "frames", "radius"});
   if (result.note.empty() && descriptor.needs_colors) result.note = lacking(c, {"rgb"});
+  if (result.note.empty() && descriptor.needs_normals) result.note = lacking(c, {"normals"});
   if (!result.note.empty()) return;
   const auto radius = shortshot::Radius::from_double(*c.radius);
   const shortshot::CloudView cloud = c.cloud();

@@ -14,18 +14,24 @@ template <class D>
 shortshot::Status describe_by(const shortshot::Neighborhood& n, const shortshot::CloudView& cloud,
                               shortshot::Rgb key_color, const shortshot::Frame& frame, shortshot::Radius radius,
                               float* out) {
+  const auto describe_with = [&](const auto& colors) {
+    if constexpr (D::needs_normals) {
+      return shortshot::describe<D>(n, colors, shortshot::CloudNormals{cloud}, frame, radius, out);
+    } else {
+      return shortshot::describe<D>(n, colors, frame, radius, out);
+    }
+  };
   if constexpr (D::needs_colors) {
-    using Rule = shortshot::PublishedLab;
-    const shortshot::RgbColors<Rule> colors{cloud, shortshot::to_lab<Rule>(key_color)};
-    return shortshot::describe<D>(n, colors, frame, radius, out);
+    using Rule = typename D::LabRule;
+    return describe_with(shortshot::RgbColors<Rule>{cloud, shortshot::to_lab<Rule>(key_color)});
   } else {
-    return shortshot::describe<D>(n, shortshot::NoColors{}, frame, radius, out);
+    return describe_with(shortshot::NoColors{});
   }
 }
 
 template <class D>
 constexpr DescriptorOutput output_of(const char* name) {
-  return {name, D::size, D::needs_colors, describe_by<D>};
+  return {name, D::size, D::needs_colors, D::needs_normals, describe_by<D>};
 }
 
 template <int R, int E, int A>
@@ -42,6 +48,8 @@ constexpr DescriptorOutput descriptors[] = {
     output_of<shortshot::Scsh696>("scsh696"),
     output_of<shortshot::Scsh<Grid<2, 2, 8>, Grid<1, 1, 8>, 10>>("scsh_32_8_10"),
     output_of<shortshot::Scsh<Grid<4, 4, 8>, Grid<2, 2, 8>, 30>>("scsh_128_32_30"),
+    output_of<shortshot::PclShot352>("shot352"),
+    output_of<shortshot::PclCshot1344>("cshot1344"),
 };
 
 }  // namespace
@@ -64,8 +72,6 @@ std::optional<KnownArray> find_known_array(const std::string& name) {
       {"lrf_pcl", {"<f4", "keypoints", {3, 3}, Role::reference}},
       {"lab_pcl", {"<f4", "rgb", {3}, Role::reference}},
       {"lab_authors", {"<f4", "rgb", {3}, Role::reference}},
-      {"shot352", {"<f4", "keypoints", {352}, Role::later}},
-      {"cshot1344", {"<f4", "keypoints", {1344}, Role::later}},
       {"bshot", {"u1", "keypoints", {44}, Role::later}},
       {"fpfh33", {"<f4", "keypoints", {33}, Role::later}},
   };

@@ -29,12 +29,13 @@ struct KnownArray {
 
 std::optional<KnownArray> find_known_array(const std::string& name);
 
-// The configuration of SSH or SCSH whose output an array holds.
+// The configuration of a descriptor whose output an array holds.
 struct DescriptorOutput {
   const char* name;
   int size;
   bool needs_colors;
-  // describe() of the library; `key_color` and the cloud's colours are looked at only if they are needed.
+  bool needs_normals;
+  // describe() of the library; `key_color` and the cloud's colours and normals are looked at only if they are needed.
   shortshot::Status (*describe)(const shortshot::Neighborhood& n, const shortshot::CloudView& cloud,
                                 shortshot::Rgb key_color, const shortshot::Frame& frame, shortshot::Radius radius,
                                 float* out);

@@ -138,18 +138,18 @@ struct PointLanes {
   simd::F32 x, y, z;
 };
 
-/// Point index_at(k) in lane k.
+/// Element index_at(k) in lane k.
 template <class Function>
-[[nodiscard, gnu::always_inline]] inline PointLanes read_points(const CloudView& cloud, Function index_at) noexcept {
-  const Float3Channel& channel = cloud.points;
-  const auto read_lanes = [&](const unsigned char* first) {
+[[nodiscard, gnu::always_inline]] inline PointLanes read_lanes(const Float3Channel& channel,
+                                                               Function index_at) noexcept {
+  const auto read_component = [&](const unsigned char* first) {
     return simd::from_lanes([&](std::size_t lane) {
       float value = 0.0f;
       std::memcpy(&value, first + index_at(lane) * channel.stride_bytes, sizeof value);
       return value;
     });
   };
-  return {read_lanes(channel.x), read_lanes(channel.y), read_lanes(channel.z)};
+  return {read_component(channel.x), read_component(channel.y), read_component(channel.z)};
 }
 
 [[nodiscard]] inline simd::Mask is_finite(const PointLanes& p) noexcept {
@@ -167,8 +167,8 @@ template <class Function>
   for (std::size_t i = 0; i < cloud.size; i += simd::lanes) {
     const bool whole = cloud.size - i >= simd::lanes;
     const PointLanes points =
-        whole ? read_points(cloud, [i](std::size_t lane) { return i + lane; })
-              : read_points(cloud, [=](std::size_t lane) { return i + lane < last ? i + lane : last; });
+        whole ? read_lanes(cloud.points, [i](std::size_t lane) { return i + lane; })
+              : read_lanes(cloud.points, [=](std::size_t lane) { return i + lane < last ? i + lane : last; });
     const simd::Mask valid = whole ? is_finite(points) : is_finite(points) & simd::first(cloud.size - i);
     if (any(valid)) f(i, points, valid);
   }

@@ -2,7 +2,8 @@
 //
 // Both existing codes quantise the CIE ratios to 1/4000 and look their cube root up in a table of 4000 entries; here
 // the same quantised ratio goes through a computed root, so that 16 KB of tables are not needed and pure white, which
-// reads past the end of both tables, is defined. sRGB linearisation keeps its 1 KB table, built at compile time.
+// reads past the end of both tables, is defined (in PclLab, too: as what PCL was seen to read there). sRGB
+// linearisation keeps its 1 KB table, built at compile time.
 #pragma once
 
 #include <array>
@@ -17,7 +18,7 @@
 
 namespace shortshot {
 
-/// CIELAB colour: L in 0..100, a and b clamped to -120..120 as both existing codes do.
+/// CIELAB colour: L in 0..100 (-16 for PclLab's white), a and b clamped to -120..120 as both existing codes do.
 struct Lab {
   float L, a, b;
 };
@@ -82,13 +83,19 @@ struct PublishedLab {
   }
 };
 
-/// CIELAB as PCL's CSHOT computes it: the cube root above the knee, 7.87 t + 16/116 below.
-struct PclLab {
+/// CIELAB by the formula of PCL's CSHOT: the cube root above the knee, 7.87 t + 16/116 below.
+struct CshotLab {
   [[nodiscard]] static float root(float t) noexcept {
     if (!(t > 0.008856f)) return rounded(7.87f * t) + 16.0f / 116.0f;
     const math::Sum2 cube_root = math::cbrt(t);
     return cube_root.high + cube_root.low;
   }
+};
+
+/// The same as PCL's compiled code gives it: its table of roots ends before that of 1, where it reads a zero. White,
+/// the only colour with such a ratio, becomes L = -16, a = 120, b = -120.
+struct PclLab {
+  [[nodiscard]] static float root(float t) noexcept { return t < 1.0f ? CshotLab::root(t) : 0.0f; }
 };
 
 namespace detail {
@@ -134,9 +141,9 @@ template <class Root>
 
 }  // namespace detail
 
-/// sRGB bytes to CIELAB by `Rule` (PublishedLab or PclLab). Source: what the published SSH / SCSH code and PCL 1.13
-/// compute; within 1e-4 of either in L, a and b. No allocation, reentrant. LabTable (lab_table.hpp) gives the same bits
-/// several times faster, for 16 KB.
+/// sRGB bytes to CIELAB by `Rule` (PublishedLab, CshotLab or PclLab). Source: what the published SSH / SCSH code and
+/// PCL 1.13 compute; within 1e-4 of either in L, a and b. No allocation, reentrant. LabTable (lab_table.hpp) gives the
+/// same bits several times faster, for 16 KB.
 template <class Rule>
 [[nodiscard]] inline Lab to_lab(Rgb rgb) noexcept {
   return detail::lab_by(detail::root_of_step<Rule>, rgb);

@@ -12,6 +12,7 @@
 #include "descriptor.hpp"
 #include "frame.hpp"
 #include "neighborhood.hpp"
+#include "normal_source.hpp"
 #include "status.hpp"
 
 namespace shortshot {
@@ -50,6 +51,7 @@ template <class D, class Search>
   if (status == Status::ok) status = check(support.frame_radius);
   if (status == Status::ok && support.viewpoint && !is_finite(*support.viewpoint)) status = Status::bad_viewpoint;
   if (status == Status::ok && D::needs_colors && !has_colors(cloud)) status = Status::missing_colors;
+  if (status == Status::ok && D::needs_normals && !has_normals(cloud)) status = Status::missing_normals;
   return status;
 }
 
@@ -63,16 +65,26 @@ template <class Search>
   return search.gather(center, wide_frame ? support.frame_radius : support.radius, n);
 }
 
+/// The source of a cloud's own normals.
+template <class D>
+[[nodiscard]] inline auto normals_of(const CloudView& cloud) noexcept {
+  if constexpr (D::needs_normals) {
+    return CloudNormals{cloud};
+  } else {
+    return NoNormals{};
+  }
+}
+
 /// Frame and kernel; for `colors` see describe().
 template <class D, class Colors>
-[[nodiscard]] inline Status describe_gathered(const Neighborhood& n, const Colors& colors, const Point& center,
-                                              const Support& support, float* out) noexcept {
+[[nodiscard]] inline Status describe_gathered(const CloudView& cloud, const Neighborhood& n, const Colors& colors,
+                                              const Point& center, const Support& support, Frame& frame,
+                                              float* out) noexcept {
   const Point* eye = support.viewpoint;
   const float towards[3] = {eye ? eye->x - center.x : 0.0f, eye ? eye->y - center.y : 0.0f,
                             eye ? eye->z - center.z : 0.0f};
-  Frame frame;
   const Status status = estimate_frame(n, support.frame_radius, frame, towards);  // all zeros: by vote
-  return status == Status::ok ? describe<D>(n, colors, frame, support.radius, out) : status;
+  return status == Status::ok ? describe<D>(n, colors, normals_of<D>(cloud), frame, support.radius, out) : status;
 }
 
 /// The colour source that reads a cloud's own bytes.
@@ -110,15 +122,16 @@ template <class D, class Search, std::size_t MaxNeighbors, class Finish>
 /// `out`        D::size floats: the descriptor, L2 norm 1, or all zeros if the status is not ok
 ///
 /// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint,
-/// missing_colors, invalid_keypoint, too_many_neighbors (the workspace is too small: Neighborhood::found of a gather()
-/// says what it takes), too_few_neighbors, ambiguous_frame; and what the search's build() returned, if not ok.
-/// No allocation; reentrant, one workspace per thread.
+/// missing_colors, missing_normals, invalid_keypoint, too_many_neighbors (the workspace is too small:
+/// Neighborhood::found of a gather() says what it takes), too_few_neighbors, ambiguous_frame; and what the search's
+/// build() returned, if not ok. No allocation; reentrant, one workspace per thread.
 template <class D, class Search, std::size_t MaxNeighbors>
 [[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
                                         const Support& support, Workspace<MaxNeighbors>& workspace,
                                         float* out) noexcept {
   return detail::describe_key<D>(cloud, search, key, support, workspace, out, [&](const auto& n, const auto& colors) {
-    return detail::describe_gathered<D>(n, colors, key.position, support, out);
+    Frame frame;
+    return detail::describe_gathered<D>(cloud, n, colors, key.position, support, frame, out);
   });
 }
 
@@ -128,7 +141,7 @@ template <class D, class Search, std::size_t MaxNeighbors>
                                         const Frame& frame, Radius radius, Workspace<MaxNeighbors>& workspace,
                                         float* out) noexcept {
   return detail::describe_key<D>(cloud, search, key, radius, workspace, out, [&](const auto& n, const auto& colors) {
-    return describe<D>(n, colors, frame, radius, out);
+    return describe<D>(n, colors, detail::normals_of<D>(cloud), frame, radius, out);
   });
 }
 

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <type_traits>
 
+#include "axis.hpp"
+#include "cells.hpp"
 #include "color.hpp"
 #include "config.hpp"
 #include "grid.hpp"
@@ -14,18 +16,33 @@ inline namespace SHORTSHOT_ISA {
 
 /// Signal of SSH: none. Every point counts as one, a cell holds a plain sum.
 struct Occupancy {
+  static constexpr bool has_histogram = false;
   static constexpr int bins = 1;
   static constexpr bool needs_colors = false;
+  static constexpr bool needs_normals = false;
   using Rule = void;  // no colours, no rule to convert them
 };
 
+/// Signal of SHOT: the cosine of the angle between a point's normal and the frame's z axis, -1 to 1, over `Bins` bins.
+template <int Bins>
+struct NormalCosine {
+  static_assert(Bins >= 1 && Bins <= 1023, "NormalCosine<Bins> supports 1 to 1023 histogram bins");
+  static constexpr bool has_histogram = true;
+  static constexpr int bins = Bins;
+  static constexpr bool needs_colors = false;
+  static constexpr bool needs_normals = true;
+  using Rule = void;
+};
+
 /// Signal of CSHOT and SCSH: the CIELAB distance between a point's colour and the key point's, over `Bins` bins of
-/// equal width. `LabRule` is the colour conversion (PublishedLab or PclLab).
+/// equal width. `LabRule` is the colour conversion (PublishedLab, CshotLab or PclLab).
 template <int Bins, class LabRule = PublishedLab>
 struct ColorDistance {
   static_assert(Bins >= 1 && Bins <= 1024, "ColorDistance<Bins> supports 1 to 1024 histogram bins");
+  static constexpr bool has_histogram = true;
   static constexpr int bins = Bins;
   static constexpr bool needs_colors = true;
+  static constexpr bool needs_normals = false;
   using Rule = LabRule;
 };
 
@@ -42,27 +59,40 @@ constexpr int position_bits(Cells... cells) noexcept {
 }  // namespace detail
 
 /// A spherical grid with a histogram of one signal in every cell.
-/// Layout: histogram bin fastest, then radius, elevation, azimuth.
-template <class GridType, class SignalType, class RadiusScale = LinearRadius>
+/// Layout: histogram bin fastest, then radius, elevation, azimuth (PublishedCells) or elevation, radius, azimuth
+/// (ShotCells).
+template <class GridType, class SignalType, class RadiusScale = LinearRadius, class CellConvention = PublishedCells>
 struct Part {
   using Grid = GridType;
   using Signal = SignalType;
   using Scale = RadiusScale;
-  static constexpr int size = Grid::cells * Signal::bins;
-  static constexpr bool has_histogram = Signal::bins > 1 || Signal::needs_colors;
+  using Cells = CellConvention;
+  static constexpr bool has_histogram = Signal::has_histogram;
+  static constexpr int values = has_histogram ? Cells::values(Signal::bins) : 1;  ///< of one cell
+  static constexpr int size = Grid::cells * values;
 
   /// Position of one value within the part.
   [[nodiscard]] static constexpr int index(int r, int e, int a, int bin = 0) noexcept {
-    return bin + Signal::bins * Grid::index(r, e, a);
+    constexpr CellStrides cells = Cells::template strides<Grid>;
+    return bin + values * (r * cells.radial + e * cells.elevation + a * cells.azimuth);
   }
 
   /// Bits of positions behind the point: what int32 has room for on the finest axis. No bit of a float is lost that
   /// could matter.
-  static constexpr int bits = detail::position_bits(Grid::radial, Grid::elevation, Grid::azimuth, Signal::bins);
-  using RadialAxis = Axis<Grid::radial, Signal::bins, Beyond::nothing, bits, Scale::below_zero>;
-  using ElevationAxis = Axis<Grid::elevation, Signal::bins * Grid::radial, Beyond::nothing, bits>;
-  using AzimuthAxis = Axis<Grid::azimuth, Signal::bins * Grid::radial * Grid::elevation, Beyond::first_cell, bits>;
-  using SignalAxis = Axis<Signal::bins, 1, Beyond::nothing, bits>;
+  static constexpr int grid_bits = detail::position_bits(Grid::radial, Grid::elevation, Grid::azimuth);
+  static constexpr int bits = detail::position_bits(1 << (30 - grid_bits), values);
+
+  /// Axes of the grid if every cell of it had `Values` values.
+  template <int Values = values>
+  using RadialAxis =
+      Axis<Grid::radial, Values * Cells::template strides<Grid>.radial, Beyond::nothing, grid_bits, Scale::below_zero>;
+  template <int Values = values>
+  using ElevationAxis =
+      Axis<Grid::elevation, Values * Cells::template strides<Grid>.elevation, Beyond::nothing, grid_bits>;
+  template <int Values = values>
+  using AzimuthAxis = Axis<Grid::azimuth, Values * Cells::template strides<Grid>.azimuth, Beyond::first_cell, grid_bits,
+                           Cells::has_poles ? BelowZero::nowhere : BelowZero::never>;
+  using SignalAxis = Axis<values, 1, Beyond::nothing, bits>;
 };
 
 namespace detail {
@@ -79,6 +109,21 @@ struct LabRuleOf<Signal, Others...> {
   static_assert(std::is_void<Mine>::value || std::is_void<Next>::value || std::is_same<Mine, Next>::value,
                 "Descriptor supports one colour conversion for all its parts");
   using type = std::conditional_t<std::is_void<Mine>::value, Next, Mine>;
+};
+
+/// Do all of these parts share their points among the same cells?
+template <class... Parts>
+struct HaveOneGrid : std::false_type {};
+template <class First, class... Others>
+struct HaveOneGrid<First, Others...>
+    : std::bool_constant<((std::is_same<typename First::Grid, typename Others::Grid>::value &&
+                           std::is_same<typename First::Scale, typename Others::Scale>::value) &&
+                          ...)> {};
+
+/// The first of some types.
+template <class First, class...>
+struct FirstOf {
+  using type = First;
 };
 
 /// The smallest common multiple, up to 2^20: as far as floats tell multiples of its inverse apart.
@@ -103,7 +148,12 @@ struct Descriptor {
   static_assert(size <= 65536, "Descriptor supports up to 65536 values");
 
   static constexpr bool needs_colors = (Parts::Signal::needs_colors || ...);
+  static constexpr bool needs_normals = (Parts::Signal::needs_normals || ...);
   using LabRule = typename detail::LabRuleOf<typename Parts::Signal...>::type;
+
+  using Cells = typename detail::FirstOf<typename Parts::Cells...>::type;
+  static_assert((std::is_same<typename Parts::Cells, Cells>::value && ...),
+                "Descriptor supports one cell convention for all its parts");
 
   /// Fewest bits behind the point of positions along its axes.
   static constexpr int position_bits = [] {
@@ -117,7 +167,7 @@ struct Descriptor {
   static constexpr int shell_borders = [] {
     int borders = 1;
     ((borders = detail::common_multiple(borders, Parts::Scale::borders(Parts::Grid::radial))), ...);
-    return borders;
+    return Cells::has_exact_shells ? borders : 1;
   }();
 
   /// First value of part `i` (of `parts` ones), and the end of the last part.
@@ -140,12 +190,33 @@ template <class ShapeGrid, class ColorGrid, int Bins, class Voting = PublishedVo
 using Scsh = Descriptor<Voting, Part<ShapeGrid, Occupancy, RadiusScale>,
                         Part<ColorGrid, ColorDistance<Bins, LabRule>, RadiusScale>>;
 
+/// SHOT: histograms of how normals lean against the frame's z axis. Needs points and normals. `Bins` as PCL counts
+/// them: a histogram has one value more.
+template <class Grid, int Bins, class Voting = ShotVoting, class RadiusScale = LinearRadius>
+using Shot = Descriptor<Voting, Part<Grid, NormalCosine<Bins>, RadiusScale, ShotCells>>;
+
+/// CSHOT: SHOT, and histograms of colour distance on the same grid. Needs points, normals and colours.
+template <class Grid, int ShapeBins, int ColorBins, class Voting = ShotVoting, class LabRule = CshotLab,
+          class RadiusScale = LinearRadius>
+using Cshot = Descriptor<Voting, Part<Grid, NormalCosine<ShapeBins>, RadiusScale, ShotCells>,
+                         Part<Grid, ColorDistance<ColorBins, LabRule>, RadiusScale, ShotCells>>;
+
 using Ssh32 = Ssh<SphericalGrid<2, 2, 8>>;
 using Ssh96 = Ssh<SphericalGrid<3, 4, 8>>;
 using Scsh336 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;
 using Scsh696 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 6>, 25>;
 
-static_assert(Ssh32::size == 32 && Ssh96::size == 96 && Scsh336::size == 336 && Scsh696::size == 696,
+/// SHOT and CSHOT in PCL's sizes and layout, without its two defects: the last bin of a histogram gets its neighbour's
+/// votes (PclVoting says what PCL does), and white has a colour of its own (PclLab).
+using Shot352 = Shot<SphericalGrid<2, 2, 8>, 10>;
+using Cshot1344 = Cshot<SphericalGrid<2, 2, 8>, 10, 30>;
+
+/// The same as PCL 1.13 computes them, defects included: for what is compared with descriptors that PCL has made.
+using PclShot352 = Shot<SphericalGrid<2, 2, 8>, 10, PclVoting>;
+using PclCshot1344 = Cshot<SphericalGrid<2, 2, 8>, 10, 30, PclVoting, PclLab>;
+
+static_assert(Ssh32::size == 32 && Ssh96::size == 96 && Scsh336::size == 336 && Scsh696::size == 696 &&
+                  Shot352::size == 352 && Cshot1344::size == 1344,
               "the published sizes");
 
 }  // namespace SHORTSHOT_ISA

@@ -30,8 +30,9 @@ inline constexpr std::size_t color_block = 4096;
 
 /// Row `row` of the features but for the zeros of a failure. The workspace grows until the neighbours fit.
 template <class D, class Color, class Search>
-[[nodiscard]] Status extract_row(const Search& search, const KeyPoint& key, const Support& support,
-                                 GrowingWorkspace& workspace, Features<D, Color>& out, std::size_t row) {
+[[nodiscard]] Status extract_row(const CloudView& cloud, const Search& search, const KeyPoint& key,
+                                 const Support& support, GrowingWorkspace& workspace, Features<D, Color>& out,
+                                 std::size_t row) {
   if (!is_finite(key.position)) return Status::invalid_keypoint;
   Neighborhood n = workspace.neighborhood();
   Status status = gather(search, key.position, support, n);
@@ -45,9 +46,9 @@ template <class D, class Color, class Search>
   float* values = out.values.data() + row * static_cast<std::size_t>(D::size);
   if constexpr (D::needs_colors) {
     const StoredColors<Color> colors{out.scratch.lab.data(), out.scratch.to_lab(key.color)};
-    return describe_gathered<D>(n, colors, key.position, support, values);
+    return describe_gathered<D>(cloud, n, colors, key.position, support, out.frames[row], values);
   } else {
-    return describe_gathered<D>(n, NoColors{}, key.position, support, values);
+    return describe_gathered<D>(cloud, n, NoColors{}, key.position, support, out.frames[row], values);
   }
 }
 
@@ -68,6 +69,7 @@ template <class D, class Color, class Search, class KeyAt, class Threads>
   const Status usable = check<D>(cloud, search, support);
   out.status.assign(count, usable);
   out.neighbors.assign(count, 0);
+  out.frames.assign(count, Frame{});
   out.values.resize(count * row_size);
   if (usable != Status::ok) {
     std::fill(out.values.begin(), out.values.end(), 0.0f);
@@ -88,8 +90,10 @@ template <class D, class Color, class Search, class KeyAt, class Threads>
       KeyPoint key{};
       Status& status = out.status[row];
       status = Status::bad_keypoint;
-      if (key_at(row, key)) status = extract_row(search, key, support, scratch.workspaces[thread], out, row);
-      if (status != Status::ok) std::fill_n(out.values.data() + row * row_size, row_size, 0.0f);
+      if (key_at(row, key)) status = extract_row(cloud, search, key, support, scratch.workspaces[thread], out, row);
+      if (status == Status::ok) continue;
+      out.frames[row] = Frame{};
+      std::fill_n(out.values.data() + row * row_size, row_size, 0.0f);
     }
   });
   level(scratch.workspaces, out.neighbors);
@@ -121,8 +125,8 @@ template <class D, class Color, class Search, class KeyAt, class Threads>
 /// and TBB's run() is `tbb::parallel_for(0, n, [&](int) { work(); });`. A call runs at most two pieces of work on it.
 ///
 /// Returns ok if key points could be looked at at all, else why not, and every row has that status: empty_cloud,
-/// bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint, missing_colors, or what the
-/// search's build() returned.
+/// bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint, missing_colors,
+/// missing_normals, or what the search's build() returned.
 ///
 /// Allocates 12 bytes a point for colours (4 with Features<D, PackedLab>) and 16 KB, about 30 bytes for each neighbour
 /// of the largest neighbourhood and each thread, and the rows; with the same `out` again, nothing, until a frame needs

@@ -8,6 +8,7 @@
 
 #include "color.hpp"
 #include "config.hpp"
+#include "frame.hpp"
 #include "lab_table.hpp"
 #include "neighborhood.hpp"
 #include "packed_lab.hpp"
@@ -51,6 +52,7 @@ struct Features {
 
   std::vector<float> values;             ///< size() * D::size, row by row; zeros where the status is not ok
   std::vector<Status> status;            ///< one per key point
+  std::vector<Frame> frames;             ///< the local reference frame of each; zeros where the status is not ok
   std::vector<std::uint32_t> neighbors;  ///< found within the larger radius, the key point itself included
 
   [[nodiscard]] std::size_t size() const noexcept { return status.size(); }

@@ -1,8 +1,9 @@
-// shortshot/grid.hpp: the spherical grid of a part, sizes and index arithmetic only.
+// shortshot/grid.hpp: the spherical grid of a part, and how wide its shells are.
 #pragma once
 
 #include <cstddef>
 
+#include "axis.hpp"
 #include "config.hpp"
 #include "math.hpp"
 #include "rounded.hpp"
@@ -11,8 +12,9 @@
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
-/// Divisions of the support sphere: `Radial` shells, `Elevation` cells from the frame's +z to its -z, `Azimuth` cells
-/// counter-clockwise from the frame's -x. The paper's r, e, a (equation 5): n = r * e * a cells.
+/// Divisions of the support sphere: `Radial` shells, `Elevation` cells between the frame's +z and -z, `Azimuth` cells
+/// counter-clockwise from the frame's -x. The paper's r, e, a (equation 5): n = r * e * a cells. How they are numbered
+/// and laid out is the convention's business (cells.hpp).
 template <int Radial, int Elevation, int Azimuth>
 struct SphericalGrid {
   static_assert(Radial >= 1 && Elevation >= 1 && Azimuth >= 1,
@@ -23,15 +25,12 @@ struct SphericalGrid {
   static constexpr int elevation = Elevation;
   static constexpr int azimuth = Azimuth;
   static constexpr int cells = Radial * Elevation * Azimuth;
-
-  /// Position of a cell in the published layout: radius fastest, azimuth slowest.
-  [[nodiscard]] static constexpr int index(int r, int e, int a) noexcept { return r + Radial * (e + Elevation * a); }
 };
 
 /// Shells of equal width: the published default. `u` is the distance over the support radius, in [0, 1]; `shell` is how
 /// much one shell counts.
 struct LinearRadius {
-  static constexpr bool below_zero = false;
+  static constexpr BelowZero below_zero = BelowZero::never;
   /// All borders and middles of shells are multiples of 1 / borders.
   static constexpr int borders(int shells) noexcept { return 2 * shells; }
   template <int Shells>
@@ -46,7 +45,7 @@ template <int Numerator = 1, int Denominator = 4>
 struct LogRadius {
   static_assert(0 < Numerator && 100LL * Numerator <= 99LL * Denominator,
                 "LogRadius<N, D> supports ratios 0 < N / D <= 0.99");
-  static constexpr bool below_zero = true;
+  static constexpr BelowZero below_zero = BelowZero::first_cell;
   static constexpr int borders(int) noexcept { return 1; }  // in float's own rounding
   template <int Shells>
   [[nodiscard]] static simd::F32 position(simd::F32 u, float shell) noexcept {

@@ -21,26 +21,31 @@ inline constexpr std::uint32_t chunk_size = 64;
 static_assert(chunk_size % simd::lanes == 0, "registers do not reach beyond the end of a chunk");
 
 /// A chunk of neighbours in the frame's spherical coordinates. Only those that are described: passes need no masks.
+template <bool WithNormals>
 struct Chunk {
   std::uint32_t size;
-  std::uint32_t index[chunk_size];    ///< in the cloud
-  float coordinates[3 * chunk_size];  // one array, so that one register holds the place in all
+  std::uint32_t index[chunk_size];                        ///< in the cloud
+  float coordinates[(WithNormals ? 4 : 3) * chunk_size];  // one array, so that one register holds the place in all
 
   /// From neighbour `i` on: the distance over the radius, 0..1; the angle from +z over pi, 0..1; and the angle from -x,
-  /// counter-clockwise, in turns, 0..1.
+  /// counter-clockwise, in turns, 0..1, or below 0 where a convention with poles has none.
   [[nodiscard]] const float* distance(std::uint32_t i) const noexcept { return coordinates + i; }
   [[nodiscard]] const float* elevation(std::uint32_t i) const noexcept { return coordinates + i + chunk_size; }
   [[nodiscard]] const float* azimuth(std::uint32_t i) const noexcept {
     return coordinates + i + 2 * std::size_t{chunk_size};
   }
+  /// The normal's component along z, -1..1.
+  [[nodiscard]] const float* cosine(std::uint32_t i) const noexcept {
+    static_assert(WithNormals, "there is one only where a part asks for normals");
+    return coordinates + i + 3 * std::size_t{chunk_size};
+  }
 };
 
-/// Closest squared distance that is described: the published code skips the key point and its copies by this bound.
-inline constexpr float min_described_d2 = 1e-15f;
-
-/// Which neighbours with these squared distances are described? Those beyond the radius are there for a wider frame.
+/// Which neighbours with these squared distances are described? Not the key point and its copies; and those beyond the
+/// radius are there for a wider frame.
+template <class Cells>
 [[nodiscard]] inline simd::Mask are_described(simd::F32 d2, Radius radius) noexcept {
-  return (d2 > simd::all(min_described_d2)) & (d2 < simd::all(radius.squared));
+  return (d2 > simd::all(Cells::copies_d2)) & (d2 < simd::all(radius.squared));
 }
 
 /// Which of these distances (over the radius) are as close to the border or the middle of a shell as their rounding?
@@ -63,6 +68,11 @@ struct AxisLanes {
   explicit AxisLanes(const float (&axis)[3]) noexcept
       : x(simd::all(axis[0])), y(simd::all(axis[1])), z(simd::all(axis[2])) {}
   [[nodiscard]] simd::F32 along(const Offsets& v) const noexcept { return (v.dx * x + v.dz * z) + v.dy * y; }
+  [[nodiscard]] simd::F32 along(const PointLanes& v) const noexcept { return (v.x * x + v.z * z) + v.y * y; }
+};
+
+struct FrameLanes {
+  AxisLanes x, y, z;
 };
 
 /// Distances over the radius. Points of a regular grid lie exactly on the borders of shells, where one bit decides
@@ -105,14 +115,43 @@ struct Stretches {
   return {chunk * chunk_size, 0, 1, neighbors - chunk * chunk_size};
 }
 
+/// One register of neighbours in the coordinates of a chunk, and which of them are described.
+struct Located {
+  simd::F32 distance, elevation, azimuth, cosine;
+  simd::Mask described;
+};
+
+template <class D, class Normals>
+[[nodiscard, gnu::always_inline]] inline Located locate_register(const Offsets& v, simd::I32 index,
+                                                                 const FrameLanes& frame, Radius radius,
+                                                                 const Normals& normals) noexcept {
+  using simd::all;
+  const Local local{frame.x.along(v), frame.y.along(v), frame.z.along(v)};
+  Located located{};
+  located.distance = relative_distance<D::shell_borders>(v, local, radius);
+  const simd::F32 from_axis = simd::sqrt(local.x * local.x + local.y * local.y);
+  located.elevation = math::elevation(from_axis, local.z);
+  located.azimuth = math::azimuth(local.x, local.y);
+  located.described = are_described<typename D::Cells>(v.d2, radius);
+  if constexpr (D::Cells::has_poles) {
+    located.azimuth = select(from_axis > all(0.0f), located.azimuth, all(-1.0f));
+  }
+  if constexpr (D::needs_normals) {
+    std::uint32_t indices[simd::lanes];
+    simd::store(indices, index);
+    const simd::F32 cosine = frame.z.along(normals(indices));
+    located.described = located.described & (all(3e38f) > simd::abs(cosine));  // false for NaN
+    located.cosine = simd::max(simd::min(cosine, all(1.0f)), all(-1.0f));
+  }
+  return located;
+}
+
 /// Neighbours into a chunk.
-template <int Borders>
-inline void locate(const Neighborhood& all, const Stretches& stretches, const Frame& frame, Radius radius,
-                   Chunk& chunk) noexcept {
+template <class D, class Normals>
+[[gnu::noinline]] inline void locate(const Neighborhood& all, const Stretches& stretches, const Frame& frame,
+                                     Radius radius, const Normals& normals, Chunk<D::needs_normals>& chunk) noexcept {
   const Neighborhood n = all;  // a local: no store to the chunk can change its pointers
-  const AxisLanes x_axis(frame.x);
-  const AxisLanes y_axis(frame.y);
-  const AxisLanes z_axis(frame.z);
+  const FrameLanes axes{AxisLanes(frame.x), AxisLanes(frame.y), AxisLanes(frame.z)};
   std::uint32_t size = 0;
   for (std::uint32_t k = 0; k < stretches.count; ++k) {
     const std::uint32_t first = stretches.first + k * stretches.stride;
@@ -120,23 +159,22 @@ inline void locate(const Neighborhood& all, const Stretches& stretches, const Fr
     for (std::uint32_t i = first; i < end; i += simd::lanes) {
       const Offsets v = load_offsets(n, i);
       const simd::I32 index = load_indices(n, i);
-      const Local local{x_axis.along(v), y_axis.along(v), z_axis.along(v)};
-      const simd::F32 distance = relative_distance<Borders>(v, local, radius);
-      const simd::F32 elevation = math::elevation(simd::sqrt(local.x * local.x + local.y * local.y), local.z);
-      const simd::F32 azimuth = math::azimuth(local.x, local.y);
+      const Located now = locate_register<D>(v, index, axes, radius, normals);
       const auto append = [&](const auto&... packing) {
         simd::store(chunk.index + size, index, packing...);
         float* const coordinates = chunk.coordinates + size;
-        simd::store(coordinates, distance, packing...);
-        simd::store(coordinates + chunk_size, elevation, packing...);
-        simd::store(coordinates + 2 * std::size_t{chunk_size}, azimuth, packing...);
+        simd::store(coordinates, now.distance, packing...);
+        simd::store(coordinates + chunk_size, now.elevation, packing...);
+        simd::store(coordinates + 2 * std::size_t{chunk_size}, now.azimuth, packing...);
+        if constexpr (D::needs_normals) {
+          simd::store(coordinates + 3 * std::size_t{chunk_size}, now.cosine, packing...);
+        }
       };
-      const simd::Mask described = are_described(v.d2, radius);
-      if (every(described)) {
+      if (every(now.described)) {
         append();
         size += static_cast<std::uint32_t>(simd::lanes);
       } else {
-        const simd::Packing packing = simd::packing(described);
+        const simd::Packing packing = simd::packing(now.described);
         append(packing);
         size += packing.count;
       }

@@ -18,7 +18,8 @@ enum class [[nodiscard]] Status : std::uint8_t {
   bad_keypoint,        ///< a key point's index lies outside the cloud
   invalid_keypoint,    ///< a key point's position is not finite
   missing_colors,      ///< the descriptor needs colours and the cloud has none
-  too_few_neighbors,   ///< no neighbour to describe, or fewer than five for a local reference frame
+  missing_normals,     ///< the descriptor needs normals and the cloud has none
+  too_few_neighbors,   ///< no neighbour to describe, or fewer than five for a local reference frame or for SHOT
   too_many_neighbors,  ///< the neighbourhood does not fit the workspace; Neighborhood::found says what it takes
   ambiguous_frame,     ///< collinear or symmetric neighbourhood: two principal axes cannot be told apart
   bad_frame,           ///< a given frame is not orthonormal, or not finite
@@ -43,6 +44,7 @@ inline namespace SHORTSHOT_ISA {
     case Status::bad_keypoint: return "the key point's index lies outside the cloud";
     case Status::invalid_keypoint: return "the key point is not finite";
     case Status::missing_colors: return "the descriptor needs colours and the cloud has none";
+    case Status::missing_normals: return "the descriptor needs normals and the cloud has none";
     case Status::too_few_neighbors: return "too few neighbours within the radius";
     case Status::too_many_neighbors: return "more neighbours than the workspace can hold";
     case Status::ambiguous_frame: return "the neighbourhood is too symmetric for a local reference frame";

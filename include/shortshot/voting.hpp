@@ -9,28 +9,13 @@
 
 #include <cstdint>
 
+#include "axis.hpp"
 #include "config.hpp"
 #include "simd.hpp"
 #include "unroll.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
-
-/// What lies beyond the last cell of an axis: nothing (radius, elevation, signal) or the first cell (azimuth).
-enum class Beyond { nothing, first_cell };
-
-/// One axis of a part: its number of cells, the distance of two neighbouring cells in the descriptor, and its ends.
-/// Positions along it are fixed-point numbers of cells with `Bits` bits behind the point. They may lie below zero, by
-/// as much as a cell, only where `BelowZero` says so.
-template <int Cells, int Stride, Beyond End, int Bits, bool BelowZero = false>
-struct Axis {
-  static constexpr int cells = Cells;
-  static constexpr int stride = Stride;
-  static constexpr Beyond end = End;
-  static constexpr int bits = Bits;
-  static constexpr float one = static_cast<float>(std::int32_t{1} << Bits);  ///< a whole cell
-  static constexpr bool below_zero = BelowZero;
-};
 
 /// The fixed-point unit of all votes: `one`, a power of two, is a whole share.
 struct VoteUnit {
@@ -59,7 +44,7 @@ namespace detail {
 template <class Axis>
 [[nodiscard]] inline simd::I32 cell_of(simd::I32 position) noexcept {
   const simd::I32 cell = simd::small_min(simd::shift_right(position, Axis::bits), simd::all_int(Axis::cells - 1));
-  return Axis::below_zero ? simd::small_max(cell, simd::all_int(0)) : cell;
+  return Axis::below_zero == BelowZero::never ? cell : simd::small_max(cell, simd::all_int(0));
 }
 
 template <int Factor>
@@ -104,6 +89,13 @@ template <class Axis>
   return {index, drop(alone, times<Axis::stride>(direction)), twice_partner, alone};
 }
 
+/// The share of a position in the cell it lies in.
+template <class Axis>
+[[nodiscard, gnu::always_inline]] inline Share share_in_cell(simd::I32 position, const VoteUnit& unit) noexcept {
+  const simd::I32 cell = cell_of<Axis>(position);
+  return share<Axis>(cell, position - simd::shift_left(cell, Axis::bits), unit);
+}
+
 template <int Axes>
 [[nodiscard]] inline simd::I32 primary_index(const Share (&shares)[Axes]) noexcept {
   simd::I32 index = shares[0].cell;
@@ -128,7 +120,7 @@ struct AdditiveVoting {
   template <class Axis>
   [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
     simd::I32 fraction = position & simd::all_int((std::int32_t{1} << Axis::bits) - 1);
-    if constexpr (Axis::below_zero) {
+    if constexpr (Axis::below_zero != BelowZero::never) {
       const simd::Mask below = is_negative(position);
       fraction = keep(below, position) + drop(below, fraction);
     }
@@ -163,6 +155,57 @@ struct AdditiveVoting {
 /// The published rule to the last quirk: the library's default.
 using PublishedVoting = AdditiveVoting<true>;
 
+/// SHOT's rule: each axis votes by itself. The shares of all axes ADD UP in the primary cell, as in AdditiveVoting, but
+/// an axis' partner gets that axis' share alone. At most 1 + N cells a point; a vote beyond the ends of radius,
+/// elevation or histogram is lost. `WrapLastBin` is a defect of PCL, in whose code the bins of a histogram are counted
+/// one short: a vote from the last bin but one up to the last one goes to the first one instead.
+template <bool WrapLastBin>
+struct SeparateVoting {
+  template <int Axes>
+  static constexpr int votes = Axes + 1;
+
+  template <class Axis>
+  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
+    Share share = detail::share_in_cell<Axis>(position, unit);
+    if constexpr (Axis::below_zero == BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
+      const simd::Mask nowhere = is_negative(position);
+      share.twice_partner = drop(nowhere, share.twice_partner) + keep(nowhere, simd::all_int(2 * unit.one));
+      share.alone = share.alone | nowhere;
+    }
+    return share;
+  }
+
+  template <class... AllAxes>
+  [[nodiscard, gnu::always_inline]] static Votes<sizeof...(AllAxes) + 1> combine(
+      const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
+    using simd::all_int;
+    constexpr int axes = sizeof...(AllAxes);
+    constexpr bool may_be_alone[] = {AllAxes::cells == 1 || AllAxes::end == Beyond::nothing ||
+                                     AllAxes::below_zero == BelowZero::nowhere...};
+    constexpr int cells[] = {AllAxes::cells...};
+    simd::I32 twice_partners = shares[0].twice_partner;
+    detail::unroll<axes - 1>([&](auto i) { twice_partners = twice_partners + shares[i + 1].twice_partner; });
+
+    Votes<axes + 1> votes;
+    votes.index[0] = detail::primary_index(shares);
+    votes.weight[0] = all_int(axes * unit.one) - simd::shift_right(twice_partners, 1);
+    detail::unroll<axes>([&](auto i) {
+      const simd::I32 weight = simd::shift_right(shares[i].twice_partner, 1);
+      simd::I32 index = votes.index[0] + shares[i].step;
+      if constexpr (WrapLastBin && i == 3) {
+        constexpr std::int32_t last = cells[3] - 1;
+        index = index - keep(shares[3].cell + shares[3].step == all_int(last), all_int(last));
+      }
+      votes.index[i + 1] = index;
+      votes.weight[i + 1] = may_be_alone[i] ? drop(shares[i].alone, weight) : weight;
+    });
+    return votes;
+  }
+};
+
+using ShotVoting = SeparateVoting<false>;
+using PclVoting = SeparateVoting<true>;  ///< equal to PCL to the last quirk: for what is compared with PCL's output
+
 /// The paper's equation (2): a point counts once, in the cell it falls into.
 struct HardVoting {
   template <int Axes>
@@ -190,8 +233,7 @@ struct MultilinearVoting {
 
   template <class Axis>
   [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
-    const simd::I32 cell = detail::cell_of<Axis>(position);
-    Share share = detail::share<Axis>(cell, position - simd::shift_left(cell, Axis::bits), unit);
+    Share share = detail::share_in_cell<Axis>(position, unit);
     share.twice_partner = drop(share.alone, share.twice_partner);
     return share;
   }

@@ -32,7 +32,7 @@ double worst_deviation(oracle::LabRule rule) {
 TEST_CASE("color: Lab within the promised 1e-3 of the published tables, on any colour") {
   // One step of the 4,000-entry table is up to 0.1 in L and 0.5 in a: no colour may fall into another step.
   CHECK(worst_deviation<ss::PublishedLab>(oracle::LabRule::published) < 1e-3);
-  CHECK(worst_deviation<ss::PclLab>(oracle::LabRule::pcl) < 1e-3);
+  CHECK(worst_deviation<ss::CshotLab>(oracle::LabRule::pcl) < 1e-3);
 }
 
 TEST_CASE("color: the table of linear values is the published one to the last bit") {
@@ -46,7 +46,7 @@ TEST_CASE("color: the table of linear values is the published one to the last bi
 
 TEST_CASE("color: the two rules are not the same") {
   CHECK(worst_deviation<ss::PublishedLab>(oracle::LabRule::pcl) > 0.1);
-  CHECK(worst_deviation<ss::PclLab>(oracle::LabRule::published) > 0.1);
+  CHECK(worst_deviation<ss::CshotLab>(oracle::LabRule::published) > 0.1);
 }
 
 TEST_CASE("color: white is defined, though it lies beyond the end of the published table") {
@@ -57,6 +57,20 @@ TEST_CASE("color: white is defined, though it lies beyond the end of the publish
   const ss::Lab nearly = ss::to_lab<ss::PublishedLab>({254, 254, 254});
   CHECK(nearly.L < white.L);
   CHECK(ss::color_distance(white, nearly) < 0.01f);
+}
+
+TEST_CASE("color: PCL's white is what PCL reads there, and no other colour differs from the corrected rule") {
+  const ss::Lab white = ss::to_lab<ss::PclLab>({255, 255, 255});
+  CHECK(white.L == -16.0f);
+  CHECK(white.a == 120.0f);
+  CHECK(white.b == -120.0f);
+  for (int i = 0; i < (1 << 24) - 1; i += 37) {
+    const ss::Rgb c{static_cast<std::uint8_t>(i >> 16), static_cast<std::uint8_t>(i >> 8),
+                    static_cast<std::uint8_t>(i)};
+    const ss::Lab pcl = ss::to_lab<ss::PclLab>(c);
+    const ss::Lab corrected = ss::to_lab<ss::CshotLab>(c);
+    if (pcl.L != corrected.L || pcl.a != corrected.a || pcl.b != corrected.b) FAIL(i);
+  }
 }
 
 TEST_CASE("color: black is 0, 0, 0 but for the rounding of 16 / 116") {

@@ -157,6 +157,6 @@ TEST_CASE("describe: points on axes, diagonals and the rim get the cells that th
     std::vector<float> out(32);
     REQUIRE(ss::describe<ss::Ssh<Grid, ss::HardVoting>>(n, ss::NoColors{}, upright, 1.0f, out.data()) == Status::ok);
     const auto hit = std::max_element(out.begin(), out.end()) - out.begin();
-    CHECK(hit == Grid::index(c.r, c.e, c.a));
+    CHECK(hit == ss::Part<Grid, ss::Occupancy>::index(c.r, c.e, c.a));
   }
 }

@@ -91,6 +91,7 @@ TEST_CASE("status: every value is reached by some call") {
       describe_into_garbage<D>(cloud.view(), cloud.size()),
       describe_into_garbage<D>(cloud.view(), nowhere),
       describe_into_garbage<D>(ss::view_xyz(cloud.xyz.data(), cloud.size()), std::size_t{0}),
+      describe_into_garbage<ss::Shot352>(cloud.view(), std::size_t{0}),
       describe_into_garbage<D>(alone.view(), std::size_t{0}),
       ss::describe_at<D>(cloud.view(), ss::BruteSearch{cloud.view()}, 0, radius, tiny, out.data()),
       describe_into_garbage<D>(line.view(), std::size_t{0}),

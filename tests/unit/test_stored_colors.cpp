@@ -67,11 +67,12 @@ double worst_error() {
 
 TEST_CASE("stored colors: the table gives the bits that to_lab() computes, white included") {
   check_table<ss::PublishedLab>();
+  check_table<ss::CshotLab>();
   check_table<ss::PclLab>();
 }
 
 TEST_CASE("stored colors: packing changes the colour distance by no more than stated, and by nearly that much") {
-  for (const double worst : {worst_error<ss::PublishedLab>(), worst_error<ss::PclLab>()}) {
+  for (const double worst : {worst_error<ss::PublishedLab>(), worst_error<ss::CshotLab>()}) {
     CHECK(worst <= stated_error);
     CHECK(worst > 0.9 * stated_error);
   }

@@ -113,9 +113,9 @@ ss::Share split(float cells) {
 template <class Voting, int R, int E, int A, int H>
 double sum_of_votes(float r, float e, float a, float h) {
   using Part = ss::Part<ss::SphericalGrid<R, E, A>, ss::ColorDistance<H>>;
-  using Radial = typename Part::RadialAxis;
-  using Elevation = typename Part::ElevationAxis;
-  using Azimuth = typename Part::AzimuthAxis;
+  using Radial = typename Part::template RadialAxis<>;
+  using Elevation = typename Part::template ElevationAxis<>;
+  using Azimuth = typename Part::template AzimuthAxis<>;
   using Signal = typename Part::SignalAxis;
   const ss::Share shares[4] = {split<Voting, Radial>(r), split<Voting, Elevation>(e), split<Voting, Azimuth>(a),
                                split<Voting, Signal>(h)};

@@ -186,7 +186,7 @@ class Grid {
     const std::size_t n = points_;
     std::size_t i = 0;
     for (; i + simd::lanes <= n; i += simd::lanes) {
-      const PointLanes p = read_points(cloud_, [&](std::size_t lane) { return order[i + lane]; });
+      const PointLanes p = read_lanes(cloud_.points, [&](std::size_t lane) { return order[i + lane]; });
       simd::store(xyz + i, p.x);
       simd::store(xyz + n + i, p.y);
       simd::store(xyz + 2 * n + i, p.z);

@@ -1,0 +1,31 @@
+// shortshot/normal_source.hpp: where a descriptor's normals come from.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "cloud.hpp"
+#include "config.hpp"
+#include "simd.hpp"
+#include "status.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// The normals of a cloud's own channel: what a NormalCosine looks at. A neighbour whose normal is not finite has none.
+struct CloudNormals {
+  CloudView cloud;
+  [[nodiscard]] Status status() const noexcept { return has_normals(cloud) ? Status::ok : Status::missing_normals; }
+  /// One register of normals by index.
+  [[nodiscard, gnu::always_inline]] PointLanes operator()(const std::uint32_t* index) const noexcept {
+    return read_lanes(cloud.normals, [index](std::size_t lane) { return std::size_t{index[lane]}; });
+  }
+};
+
+/// For descriptors without normals.
+struct NoNormals {
+  [[nodiscard]] static Status status() noexcept { return Status::ok; }
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
