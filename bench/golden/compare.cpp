@@ -11,7 +11,9 @@
 #include "frames.hpp"
 #include "known_arrays.hpp"
 #include "neighbors.hpp"
+#include "shortshot/binary.hpp"
 #include "shortshot/color.hpp"
+#include "shortshot/descriptor.hpp"
 #include "shortshot/search/brute.hpp"
 #include "shortshot/search/grid_hosted.hpp"
 
@@ -32,6 +34,10 @@ constexpr std::size_t synthetic_descriptor_percent = 10;
 constexpr std::size_t real_frame_percent = 2;
 
 bool is_more_than(std::size_t part, std::size_t percent, std::size_t whole) { return 100 * part > percent * whole; }
+
+std::size_t allowed_percent(const Case& c) {
+  return c.frames_are_pcl_lrf ? real_descriptor_percent : synthetic_descriptor_percent;
+}
 
 std::string number_text(const char* before, double value, const char* after = "") {
   char text[64];
@@ -114,17 +120,20 @@ void compare_row(std::size_t row, shortshot::Status status, const std::vector<fl
   result.add_deviation(row, number_text("L2 ", difference.l2) + expected + got);
 }
 
-void compare_descriptor(const Case& c, const Array& array, const DescriptorOutput& descriptor, Result& result) {
-  result.note = lacking(c, {"points", "keypoints", "frames", "radius"});
-  if (result.note.empty() && descriptor.needs_colors) result.note = lacking(c, {"rgb"});
-  if (result.note.empty() && descriptor.needs_normals) result.note = lacking(c, {"normals"});
-  if (!result.note.empty()) return;
+std::string lacking_for(const Case& c, const DescriptorOutput& descriptor) {
+  std::string missing = lacking(c, {"points", "keypoints", "frames", "radius"});
+  if (missing.empty() && descriptor.needs_colors) missing = lacking(c, {"rgb"});
+  if (missing.empty() && descriptor.needs_normals) missing = lacking(c, {"normals"});
+  return missing;
+}
+
+// Describes all key points in the given frames; for_row(row, status, values) gets what comes of each.
+template <class ForRow>
+void describe_rows(const Case& c, const DescriptorOutput& descriptor, ForRow for_row) {
   const auto radius = shortshot::Radius::from_double(*c.radius);
   const shortshot::CloudView cloud = c.cloud();
   const shortshot::BruteSearch search{cloud};
-  const std::vector<float> expected = floats_of(array);
-  const auto size = static_cast<std::size_t>(descriptor.size);
-  std::vector<float> ours(size);
+  std::vector<float> ours(static_cast<std::size_t>(descriptor.size));
   Neighbors neighbors;
   for (std::size_t row = 0; row < c.keypoints.size(); ++row) {
     const shortshot::Neighborhood& n = neighbors.gather(search, center_of(c, row), radius);
@@ -134,11 +143,47 @@ void compare_descriptor(const Case& c, const Array& array, const DescriptorOutpu
     const shortshot::Rgb key_color =
         descriptor.needs_colors ? shortshot::color(cloud, c.keypoints[row]) : shortshot::Rgb{};
     const shortshot::Status status = descriptor.describe(n, cloud, key_color, frame, radius, ours.data());
-    compare_row(row, status, ours, expected.data() + size * row, result);
+    for_row(row, status, ours);
   }
+}
+
+void compare_descriptor(const Case& c, const Array& array, const DescriptorOutput& descriptor, Result& result) {
+  result.note = lacking_for(c, descriptor);
+  if (!result.note.empty()) return;
+  const std::vector<float> expected = floats_of(array);
+  describe_rows(c, descriptor, [&](std::size_t row, shortshot::Status status, const std::vector<float>& ours) {
+    compare_row(row, status, ours, expected.data() + ours.size() * row, result);
+  });
   result.rows = c.keypoints.size();
-  const std::size_t percent = c.frames_are_pcl_lrf ? real_descriptor_percent : synthetic_descriptor_percent;
-  result.broken = result.broken || is_more_than(result.beyond, percent, result.rows);
+  result.broken = result.broken || is_more_than(result.beyond, allowed_percent(c), result.rows);
+}
+
+// The bits of the reference's own SHOT must be equal. Those of our SHOT may differ in a few rows, where a sum is 90 %
+// of its group but for rounding.
+void compare_bits(const Case& c, const Array& array, Result& result) {
+  const DescriptorOutput& shot = *find_descriptor("shot352");
+  result.note = lacking_for(c, shot);
+  if (result.note.empty()) result.note = lacking(c, {"shot352"});
+  if (!result.note.empty()) return;
+  using Bits = shortshot::BinaryDescriptor<shortshot::PclShot352>;
+  const std::vector<std::uint8_t> expected = bytes_of(array);
+  const std::vector<float> references = floats_of(*c.find("shot352"));
+  describe_rows(c, shot, [&](std::size_t row, shortshot::Status status, const std::vector<float>& ours) {
+    const float* reference = references.data() + ours.size() * row;
+    const std::uint8_t* bits = expected.data() + Bits::size_bytes * row;
+    Bits of_reference, of_ours;
+    shortshot::binarize(reference, of_reference);
+    shortshot::binarize(status == shortshot::Status::ok ? ours.data() : reference, of_ours);
+    const int off = shortshot::hamming_distance(of_reference.bytes, bits, Bits::size_bytes);
+    const int ours_off = shortshot::hamming_distance(of_ours.bytes, bits, Bits::size_bytes);
+    result.add_difference(std::max(off, ours_off), std::max(off, ours_off));
+    result.broken = result.broken || off > 0;
+    if (off == 0 && ours_off == 0) return;
+    result.add_deviation(
+        row, std::to_string(off) + " bits differ for the reference's SHOT, " + std::to_string(ours_off) + " for ours");
+  });
+  result.rows = c.keypoints.size();
+  result.broken = result.broken || is_more_than(result.beyond, allowed_percent(c), result.rows);
 }
 
 // "1 tie, 10 near-equal eigenvalues"
@@ -215,6 +260,8 @@ Result result_of(const Case& c, const Array& array) {
     compare_counts(c, array, result);
   } else if (array.name == "lrf_pcl") {
     compare_lrfs(c, array, result);
+  } else if (array.name == "bshot") {
+    compare_bits(c, array, result);
   } else if (array.name == "lab_pcl") {
     compare_lab<shortshot::PclLab>(c, array, result);
   } else if (array.name == "lab_authors") {

@@ -72,7 +72,7 @@ std::optional<KnownArray> find_known_array(const std::string& name) {
       {"lrf_pcl", {"<f4", "keypoints", {3, 3}, Role::reference}},
       {"lab_pcl", {"<f4", "rgb", {3}, Role::reference}},
       {"lab_authors", {"<f4", "rgb", {3}, Role::reference}},
-      {"bshot", {"u1", "keypoints", {44}, Role::later}},
+      {"bshot", {"u1", "keypoints", {44}, Role::reference}},
       {"fpfh33", {"<f4", "keypoints", {33}, Role::later}},
   };
   if (const DescriptorOutput* descriptor = find_descriptor(name)) {

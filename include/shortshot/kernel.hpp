@@ -3,6 +3,7 @@
 // <type_traits> and <utility> of the standard library. <cstdint>, <cstring> and <type_traits>.
 #pragma once
 
+#include "binary.hpp"
 #include "describe_at.hpp"
 #include "search/brute.hpp"
 #include "search/grid.hpp"
