@@ -2068,7 +2068,8 @@ struct LogRadius {
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
-/// The fixed-point unit of all votes: `one`, a power of two, is a whole share.
+/// The fixed-point unit of all votes: `one`, a power of two, is a whole share. A rule may count twice as much for it;
+/// its `weight_bits` say how much that makes of a point: less than 2^weight_bits units, or just as much.
 struct VoteUnit {
   int bits;
   std::int32_t one;
@@ -2119,8 +2120,9 @@ template <class Axis>
          keep(next > all_int(Axis::cells - 1), all_int(Axis::cells));
 }
 
-/// The share of a position in a cell: fraction 0 is the cell's lower border, 2^Axis::bits its upper one.
-template <class Axis>
+/// The share of a position in a cell: fraction 0 is the cell's lower border, 2^Axis::bits its upper one. `Rounds`: the
+/// partner's share is rounded to the nearest unit, not down.
+template <class Axis, bool Rounds = false>
 [[nodiscard, gnu::always_inline]] inline Share share(simd::I32 cell, simd::I32 fraction,
                                                      const VoteUnit& unit) noexcept {
   using simd::all_int;
@@ -2129,7 +2131,10 @@ template <class Axis>
   const simd::Mask lower = is_negative(side);  // the middle of the cell included
   const simd::I32 direction = minus_one_or_one(lower);
   // The partner's share is the distance from the middle; ~side = -side - 1 is what is left up to it.
-  const simd::I32 twice_partner = simd::shift_right(invert(lower, side), Axis::bits - unit.bits - 1);
+  simd::I32 distance = invert(lower, side);
+  const int finer_bits = Axis::bits - unit.bits - 1;
+  if (Rounds) distance = distance + all_int((std::int32_t{1} << finer_bits) >> 1);
+  const simd::I32 twice_partner = simd::shift_right(distance, finer_bits);
   const simd::I32 index = times<Axis::stride>(cell);
   if constexpr (Axis::cells == 1) return {index, all_int(0), twice_partner, all_int(0) == all_int(0)};
   if constexpr (Axis::end == Beyond::first_cell) {
@@ -2141,10 +2146,10 @@ template <class Axis>
 }
 
 /// The share of a position in the cell it lies in.
-template <class Axis>
+template <class Axis, bool Rounds = false>
 [[nodiscard, gnu::always_inline]] inline Share share_in_cell(simd::I32 position, const VoteUnit& unit) noexcept {
   const simd::I32 cell = cell_of<Axis>(position);
-  return share<Axis>(cell, position - simd::shift_left(cell, Axis::bits), unit);
+  return share<Axis, Rounds>(cell, position - simd::shift_left(cell, Axis::bits), unit);
 }
 
 template <int Axes>
@@ -2165,6 +2170,8 @@ template <int Axes>
 /// * `FlipRadius`: the signal's partner also gets the radial PARTNER's share in place of the radial cell's.
 template <bool FlipRadius>
 struct AdditiveVoting {
+  static constexpr bool partners_get_own_share = false;
+  static constexpr int weight_bits = 2;
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
@@ -2212,12 +2219,14 @@ using PublishedVoting = AdditiveVoting<true>;
 /// one short: a vote from the last bin but one up to the last one goes to the first one instead.
 template <bool WrapLastBin>
 struct SeparateVoting {
+  static constexpr bool partners_get_own_share = true;
+  static constexpr int weight_bits = 3;  // half units
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
   template <class Axis>
   [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
-    Share share = detail::share_in_cell<Axis>(position, unit);
+    Share share = detail::share_in_cell<Axis, true>(position, unit);
     if constexpr (Axis::below_zero == BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
       const simd::Mask nowhere = is_negative(position);
       share.twice_partner = drop(nowhere, share.twice_partner) + keep(nowhere, simd::all_int(2 * unit.one));
@@ -2239,9 +2248,9 @@ struct SeparateVoting {
 
     Votes<axes + 1> votes;
     votes.index[0] = detail::primary_index(shares);
-    votes.weight[0] = all_int(axes * unit.one) - simd::shift_right(twice_partners, 1);
+    votes.weight[0] = all_int(2 * axes * unit.one) - twice_partners;
     detail::unroll<axes>([&](auto i) {
-      const simd::I32 weight = simd::shift_right(shares[i].twice_partner, 1);
+      const simd::I32 weight = shares[i].twice_partner;
       simd::I32 index = votes.index[0] + shares[i].step;
       if constexpr (WrapLastBin && i == 3) {
         constexpr std::int32_t last = cells[3] - 1;
@@ -2259,6 +2268,8 @@ using PclVoting = SeparateVoting<true>;  ///< equal to PCL to the last quirk: fo
 
 /// The paper's equation (2): a point counts once, in the cell it falls into.
 struct HardVoting {
+  static constexpr bool partners_get_own_share = false;
+  static constexpr int weight_bits = 2;
   template <int Axes>
   static constexpr int votes = 1;
 
@@ -2279,6 +2290,8 @@ struct HardVoting {
 /// Multilinear interpolation: shares multiply, over all 2^N cells around the point. A partition of unity (every point
 /// counts exactly once in all: what has no partner stays in the cell) and continuous at every border between cells.
 struct MultilinearVoting {
+  static constexpr bool partners_get_own_share = false;
+  static constexpr int weight_bits = 2;
   template <int Axes>
   static constexpr int votes = 1 << Axes;
 
@@ -3361,6 +3374,12 @@ template <int Factor>
   return {simd::all_int(0), times<Factor>(share.step), share.twice_partner, share.alone};
 }
 
+/// Is vote `k` of a neighbour, to its partner along an axis of the grid, of the same weight for all parts on the grid?
+template <class Voting>
+constexpr bool is_shared(int k) noexcept {
+  return Voting::partners_get_own_share && 1 <= k && k <= 3;
+}
+
 /// The integers that votes are added to live in the caller's output array, bit for bit, until they are normalised: no
 /// second array is needed. memcpy is how C++ says that; compilers make one add of it.
 inline void add_bits(float* value, std::int32_t weight) noexcept {
@@ -3370,23 +3389,24 @@ inline void add_bits(float* value, std::int32_t weight) noexcept {
   std::memcpy(value, &sum, sizeof sum);
 }
 
-/// The votes of a chunk for one part, lane-wise: `count` arrays of positions in the part, and as many of weights. Votes
-/// go through memory: taken out of registers lane by lane they would cost twice as much.
-template <class Voting, class PartType, class Signal>
+/// The votes of a chunk for the part that begins at value `Offset` of the descriptor, lane-wise: `count` arrays of
+/// positions in the part, and as many of weights. Votes go through memory: taken out of registers lane by lane they
+/// would cost twice as much.
+template <class Voting, class PartType, int Offset, class Signal>
 struct ChunkVotes {
   using Part = PartType;
+  static constexpr int offset = Offset;
   static constexpr int count = votes_of<Voting, Part>;
-  float* values;  ///< the part's place in the descriptor
   Signal signal;
   std::int32_t index[count * chunk_size];
   std::int32_t weight[count * chunk_size];
 
   template <class Colors>
-  ChunkVotes(float* part, const Colors& colors) noexcept : values(part), signal(colors) {}
+  explicit ChunkVotes(const Colors& colors) noexcept : signal(colors) {}
 
   /// The votes of one register of neighbours, from `i` on, whose shares are those in the part's grid if every cell had
-  /// `Values` values.
-  template <int Values, class Chunk>
+  /// `Values` values. Weights that the `First` part on the grid has as well are kept there only.
+  template <int Values, bool First, class Chunk>
   [[gnu::always_inline]] void cast(const Chunk& chunk, std::uint32_t i, const GridShares& grid,
                                    const VoteUnit& unit) noexcept {
     using R = typename Part::template RadialAxis<>;
@@ -3401,37 +3421,65 @@ struct ChunkVotes {
       using S = typename Part::SignalAxis;
       const simd::I32 position = Part::Cells::template bin_position<S>(signal(chunk, i));
       const Share s = Voting::template split<S>(position, unit);
-      store(i, Voting::template combine<R, E, A, S>({r, e, a, s}, unit));
+      store<First>(i, Voting::template combine<R, E, A, S>({r, e, a, s}, unit));
     } else {
-      store(i, Voting::template combine<R, E, A>({r, e, a}, unit));
+      store<First>(i, Voting::template combine<R, E, A>({r, e, a}, unit));
     }
   }
 
  private:
+  template <bool First>
   [[gnu::always_inline]] void store(std::uint32_t i, const Votes<count>& votes) noexcept {
     unroll<count>([&](auto k) {
       simd::store(index + i + k * chunk_size, votes.index[k]);
-      simd::store(weight + i + k * chunk_size, votes.weight[k]);
+      if constexpr (First || !is_shared<Voting>(k)) simd::store(weight + i + k * chunk_size, votes.weight[k]);
     });
   }
 };
 
-/// Neighbours from the four stretches of a chunk are taken in turn.
-template <class Votes>
-inline void scatter(const Votes& votes, std::uint32_t size) noexcept {
-  float* const part = votes.values;
-  const auto add = [&](std::uint32_t i) {
-    unroll<Votes::count>(
-        [&](auto k) { add_bits(part + votes.index[k * chunk_size + i], votes.weight[k * chunk_size + i]); });
-  };
+/// The largest number of votes that a neighbour has for any of these parts.
+template <class First, class... Others>
+inline constexpr int votes_of_most = [] {
+  int most = First::count;
+  ((most = Others::count > most ? Others::count : most), ...);
+  return most;
+}();
+
+/// Vote `K` of neighbour `i` of a chunk, of the weight that `source` has.
+template <int K, class Votes, class Source>
+[[gnu::always_inline]] inline void add_vote(float* out, const Votes& votes, const Source& source,
+                                            std::uint32_t i) noexcept {
+  constexpr std::uint32_t first = K * chunk_size;
+  if constexpr (K < Votes::count) {
+    add_bits(out + Votes::offset + votes.index[first + i], source.weight[first + i]);
+  }
+}
+
+/// All votes of neighbour `i` of a chunk, for all parts on one grid.
+template <class Voting, class First, class... Others>
+[[gnu::always_inline]] inline void add_votes(std::uint32_t i, float* out, const First& first,
+                                             const Others&... others) noexcept {
+  unroll<votes_of_most<First, Others...>>([&](auto k) {
+    add_vote<k>(out, first, first, i);
+    if constexpr (is_shared<Voting>(k)) {
+      (add_vote<k>(out, others, first, i), ...);
+    } else {
+      (add_vote<k>(out, others, others, i), ...);
+    }
+  });
+}
+
+/// The votes of a chunk for all parts on one grid. Neighbours from its four stretches are taken in turn.
+template <class Voting, class... Votes>
+inline void scatter(std::uint32_t size, float* out, const Votes&... votes) noexcept {
   constexpr std::uint32_t quarter = chunk_size / 4;  // a stretch of a full chunk; any other split would do
   static_assert(stretches_of_full_chunk == 4, "what is written out below");
   std::uint32_t i = 0;
   if (size >= 3 * quarter) {
-    for (; i < size - 3 * quarter; ++i) unroll<4>([&](auto k) { add(i + k * quarter); });
+    for (; i < size - 3 * quarter; ++i) unroll<4>([&](auto k) { add_votes<Voting>(i + k * quarter, out, votes...); });
   }
   for (; i < quarter; ++i) {
-    for (std::uint32_t k = i; k < size; k += quarter) add(k);
+    for (std::uint32_t k = i; k < size; k += quarter) add_votes<Voting>(k, out, votes...);
   }
 }
 
@@ -3440,7 +3488,7 @@ constexpr int common_divisor(int a, int b) noexcept { return b == 0 ? a : common
 
 /// One chunk into parts that have one grid: points are shared among its cells once for all of them.
 template <class Voting, class Chunk, class First, class... Others>
-inline void accumulate(const Chunk& chunk, VoteUnit unit, First&& first, Others&&... others) noexcept {
+inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& first, Others&&... others) noexcept {
   using Part = typename std::decay_t<First>::Part;
   constexpr int values = [] {
     int divisor = Part::values;
@@ -3450,11 +3498,10 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, First&& first, Others&
   const std::uint32_t size = chunk.size;
   for (std::uint32_t i = 0; i < size; i += simd::lanes) {
     const GridShares shares = share_among_cells<Voting, Part, values>(chunk, i, unit);
-    first.template cast<values>(chunk, i, shares, unit);
-    (others.template cast<values>(chunk, i, shares, unit), ...);
+    first.template cast<values, true>(chunk, i, shares, unit);
+    (others.template cast<values, false>(chunk, i, shares, unit), ...);
   }
-  scatter(first, size);
-  (scatter(others, size), ...);
+  scatter<Voting>(size, out, first, others...);
 }
 
 template <class Voting, class... Parts, std::size_t... I, class Chunk, class Colors>
@@ -3462,11 +3509,11 @@ inline void accumulate_all(Descriptor<Voting, Parts...>, std::index_sequence<I..
                            const Colors& colors, VoteUnit unit, float* out) noexcept {
   using D = Descriptor<Voting, Parts...>;
   if constexpr (HaveOneGrid<Parts...>::value) {
-    accumulate<Voting>(chunk, unit, ChunkVotes<Voting, Parts, SignalOf<Parts, Colors>>(out + D::offset(I), colors)...);
+    accumulate<Voting>(chunk, unit, out, ChunkVotes<Voting, Parts, D::offset(I), SignalOf<Parts, Colors>>(colors)...);
   } else {
-    const auto accumulate_part = [&](auto part, float* place) {
+    const auto accumulate_part = [&](auto part, float* values) {
       using Part = decltype(part);
-      accumulate<Voting>(chunk, unit, ChunkVotes<Voting, Part, SignalOf<Part, Colors>>(place, colors));
+      accumulate<Voting>(chunk, unit, values, ChunkVotes<Voting, Part, 0, SignalOf<Part, Colors>>(colors));
     };
     (accumulate_part(Parts{}, out + D::offset(I)), ...);
   }
@@ -3503,11 +3550,10 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// The finest unit in which the votes of `n` neighbours (each of weight 4 at most) can be added up, and no finer than
-/// positions are.
-template <int PositionBits>
+/// The finest unit in which the votes of `n` neighbours can be added up, and no finer than positions are.
+template <int PositionBits, int WeightBits = 2>
 [[nodiscard]] inline VoteUnit vote_unit(std::uint32_t n) noexcept {
-  const int finest = fixed_point_exponent(n, 2);
+  const int finest = fixed_point_exponent(n, WeightBits);
   const int bits = finest < PositionBits ? finest : PositionBits - 1;
   return {bits, std::int32_t{1} << bits};
 }
@@ -3582,7 +3628,7 @@ template <class D, class Colors, class Normals>
   if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
   if (status != Status::ok) return status;
 
-  const VoteUnit unit = detail::vote_unit<D::position_bits>(n.size);
+  const VoteUnit unit = detail::vote_unit<D::position_bits, D::Voting::weight_bits>(n.size);
   detail::Chunk<D::needs_normals> chunk;
   std::uint32_t described = 0;
   for (std::uint32_t i = 0; i * detail::chunk_size < n.size; ++i) {

@@ -96,6 +96,12 @@ template <int Factor>
   return {simd::all_int(0), times<Factor>(share.step), share.twice_partner, share.alone};
 }
 
+/// Is vote `k` of a neighbour, to its partner along an axis of the grid, of the same weight for all parts on the grid?
+template <class Voting>
+constexpr bool is_shared(int k) noexcept {
+  return Voting::partners_get_own_share && 1 <= k && k <= 3;
+}
+
 /// The integers that votes are added to live in the caller's output array, bit for bit, until they are normalised: no
 /// second array is needed. memcpy is how C++ says that; compilers make one add of it.
 inline void add_bits(float* value, std::int32_t weight) noexcept {
@@ -105,23 +111,24 @@ inline void add_bits(float* value, std::int32_t weight) noexcept {
   std::memcpy(value, &sum, sizeof sum);
 }
 
-/// The votes of a chunk for one part, lane-wise: `count` arrays of positions in the part, and as many of weights. Votes
-/// go through memory: taken out of registers lane by lane they would cost twice as much.
-template <class Voting, class PartType, class Signal>
+/// The votes of a chunk for the part that begins at value `Offset` of the descriptor, lane-wise: `count` arrays of
+/// positions in the part, and as many of weights. Votes go through memory: taken out of registers lane by lane they
+/// would cost twice as much.
+template <class Voting, class PartType, int Offset, class Signal>
 struct ChunkVotes {
   using Part = PartType;
+  static constexpr int offset = Offset;
   static constexpr int count = votes_of<Voting, Part>;
-  float* values;  ///< the part's place in the descriptor
   Signal signal;
   std::int32_t index[count * chunk_size];
   std::int32_t weight[count * chunk_size];
 
   template <class Colors>
-  ChunkVotes(float* part, const Colors& colors) noexcept : values(part), signal(colors) {}
+  explicit ChunkVotes(const Colors& colors) noexcept : signal(colors) {}
 
   /// The votes of one register of neighbours, from `i` on, whose shares are those in the part's grid if every cell had
-  /// `Values` values.
-  template <int Values, class Chunk>
+  /// `Values` values. Weights that the `First` part on the grid has as well are kept there only.
+  template <int Values, bool First, class Chunk>
   [[gnu::always_inline]] void cast(const Chunk& chunk, std::uint32_t i, const GridShares& grid,
                                    const VoteUnit& unit) noexcept {
     using R = typename Part::template RadialAxis<>;
@@ -136,37 +143,65 @@ struct ChunkVotes {
       using S = typename Part::SignalAxis;
       const simd::I32 position = Part::Cells::template bin_position<S>(signal(chunk, i));
       const Share s = Voting::template split<S>(position, unit);
-      store(i, Voting::template combine<R, E, A, S>({r, e, a, s}, unit));
+      store<First>(i, Voting::template combine<R, E, A, S>({r, e, a, s}, unit));
     } else {
-      store(i, Voting::template combine<R, E, A>({r, e, a}, unit));
+      store<First>(i, Voting::template combine<R, E, A>({r, e, a}, unit));
     }
   }
 
  private:
+  template <bool First>
   [[gnu::always_inline]] void store(std::uint32_t i, const Votes<count>& votes) noexcept {
     unroll<count>([&](auto k) {
       simd::store(index + i + k * chunk_size, votes.index[k]);
-      simd::store(weight + i + k * chunk_size, votes.weight[k]);
+      if constexpr (First || !is_shared<Voting>(k)) simd::store(weight + i + k * chunk_size, votes.weight[k]);
     });
   }
 };
 
-/// Neighbours from the four stretches of a chunk are taken in turn.
-template <class Votes>
-inline void scatter(const Votes& votes, std::uint32_t size) noexcept {
-  float* const part = votes.values;
-  const auto add = [&](std::uint32_t i) {
-    unroll<Votes::count>(
-        [&](auto k) { add_bits(part + votes.index[k * chunk_size + i], votes.weight[k * chunk_size + i]); });
-  };
+/// The largest number of votes that a neighbour has for any of these parts.
+template <class First, class... Others>
+inline constexpr int votes_of_most = [] {
+  int most = First::count;
+  ((most = Others::count > most ? Others::count : most), ...);
+  return most;
+}();
+
+/// Vote `K` of neighbour `i` of a chunk, of the weight that `source` has.
+template <int K, class Votes, class Source>
+[[gnu::always_inline]] inline void add_vote(float* out, const Votes& votes, const Source& source,
+                                            std::uint32_t i) noexcept {
+  constexpr std::uint32_t first = K * chunk_size;
+  if constexpr (K < Votes::count) {
+    add_bits(out + Votes::offset + votes.index[first + i], source.weight[first + i]);
+  }
+}
+
+/// All votes of neighbour `i` of a chunk, for all parts on one grid.
+template <class Voting, class First, class... Others>
+[[gnu::always_inline]] inline void add_votes(std::uint32_t i, float* out, const First& first,
+                                             const Others&... others) noexcept {
+  unroll<votes_of_most<First, Others...>>([&](auto k) {
+    add_vote<k>(out, first, first, i);
+    if constexpr (is_shared<Voting>(k)) {
+      (add_vote<k>(out, others, first, i), ...);
+    } else {
+      (add_vote<k>(out, others, others, i), ...);
+    }
+  });
+}
+
+/// The votes of a chunk for all parts on one grid. Neighbours from its four stretches are taken in turn.
+template <class Voting, class... Votes>
+inline void scatter(std::uint32_t size, float* out, const Votes&... votes) noexcept {
   constexpr std::uint32_t quarter = chunk_size / 4;  // a stretch of a full chunk; any other split would do
   static_assert(stretches_of_full_chunk == 4, "what is written out below");
   std::uint32_t i = 0;
   if (size >= 3 * quarter) {
-    for (; i < size - 3 * quarter; ++i) unroll<4>([&](auto k) { add(i + k * quarter); });
+    for (; i < size - 3 * quarter; ++i) unroll<4>([&](auto k) { add_votes<Voting>(i + k * quarter, out, votes...); });
   }
   for (; i < quarter; ++i) {
-    for (std::uint32_t k = i; k < size; k += quarter) add(k);
+    for (std::uint32_t k = i; k < size; k += quarter) add_votes<Voting>(k, out, votes...);
   }
 }
 
@@ -175,7 +210,7 @@ constexpr int common_divisor(int a, int b) noexcept { return b == 0 ? a : common
 
 /// One chunk into parts that have one grid: points are shared among its cells once for all of them.
 template <class Voting, class Chunk, class First, class... Others>
-inline void accumulate(const Chunk& chunk, VoteUnit unit, First&& first, Others&&... others) noexcept {
+inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& first, Others&&... others) noexcept {
   using Part = typename std::decay_t<First>::Part;
   constexpr int values = [] {
     int divisor = Part::values;
@@ -185,11 +220,10 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, First&& first, Others&
   const std::uint32_t size = chunk.size;
   for (std::uint32_t i = 0; i < size; i += simd::lanes) {
     const GridShares shares = share_among_cells<Voting, Part, values>(chunk, i, unit);
-    first.template cast<values>(chunk, i, shares, unit);
-    (others.template cast<values>(chunk, i, shares, unit), ...);
+    first.template cast<values, true>(chunk, i, shares, unit);
+    (others.template cast<values, false>(chunk, i, shares, unit), ...);
   }
-  scatter(first, size);
-  (scatter(others, size), ...);
+  scatter<Voting>(size, out, first, others...);
 }
 
 template <class Voting, class... Parts, std::size_t... I, class Chunk, class Colors>
@@ -197,11 +231,11 @@ inline void accumulate_all(Descriptor<Voting, Parts...>, std::index_sequence<I..
                            const Colors& colors, VoteUnit unit, float* out) noexcept {
   using D = Descriptor<Voting, Parts...>;
   if constexpr (HaveOneGrid<Parts...>::value) {
-    accumulate<Voting>(chunk, unit, ChunkVotes<Voting, Parts, SignalOf<Parts, Colors>>(out + D::offset(I), colors)...);
+    accumulate<Voting>(chunk, unit, out, ChunkVotes<Voting, Parts, D::offset(I), SignalOf<Parts, Colors>>(colors)...);
   } else {
-    const auto accumulate_part = [&](auto part, float* place) {
+    const auto accumulate_part = [&](auto part, float* values) {
       using Part = decltype(part);
-      accumulate<Voting>(chunk, unit, ChunkVotes<Voting, Part, SignalOf<Part, Colors>>(place, colors));
+      accumulate<Voting>(chunk, unit, values, ChunkVotes<Voting, Part, 0, SignalOf<Part, Colors>>(colors));
     };
     (accumulate_part(Parts{}, out + D::offset(I)), ...);
   }

@@ -28,11 +28,10 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// The finest unit in which the votes of `n` neighbours (each of weight 4 at most) can be added up, and no finer than
-/// positions are.
-template <int PositionBits>
+/// The finest unit in which the votes of `n` neighbours can be added up, and no finer than positions are.
+template <int PositionBits, int WeightBits = 2>
 [[nodiscard]] inline VoteUnit vote_unit(std::uint32_t n) noexcept {
-  const int finest = fixed_point_exponent(n, 2);
+  const int finest = fixed_point_exponent(n, WeightBits);
   const int bits = finest < PositionBits ? finest : PositionBits - 1;
   return {bits, std::int32_t{1} << bits};
 }
@@ -107,7 +106,7 @@ template <class D, class Colors, class Normals>
   if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
   if (status != Status::ok) return status;
 
-  const VoteUnit unit = detail::vote_unit<D::position_bits>(n.size);
+  const VoteUnit unit = detail::vote_unit<D::position_bits, D::Voting::weight_bits>(n.size);
   detail::Chunk<D::needs_normals> chunk;
   std::uint32_t described = 0;
   for (std::uint32_t i = 0; i * detail::chunk_size < n.size; ++i) {

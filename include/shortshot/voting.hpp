@@ -17,7 +17,8 @@
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
-/// The fixed-point unit of all votes: `one`, a power of two, is a whole share.
+/// The fixed-point unit of all votes: `one`, a power of two, is a whole share. A rule may count twice as much for it;
+/// its `weight_bits` say how much that makes of a point: less than 2^weight_bits units, or just as much.
 struct VoteUnit {
   int bits;
   std::int32_t one;
@@ -68,8 +69,9 @@ template <class Axis>
          keep(next > all_int(Axis::cells - 1), all_int(Axis::cells));
 }
 
-/// The share of a position in a cell: fraction 0 is the cell's lower border, 2^Axis::bits its upper one.
-template <class Axis>
+/// The share of a position in a cell: fraction 0 is the cell's lower border, 2^Axis::bits its upper one. `Rounds`: the
+/// partner's share is rounded to the nearest unit, not down.
+template <class Axis, bool Rounds = false>
 [[nodiscard, gnu::always_inline]] inline Share share(simd::I32 cell, simd::I32 fraction,
                                                      const VoteUnit& unit) noexcept {
   using simd::all_int;
@@ -78,7 +80,10 @@ template <class Axis>
   const simd::Mask lower = is_negative(side);  // the middle of the cell included
   const simd::I32 direction = minus_one_or_one(lower);
   // The partner's share is the distance from the middle; ~side = -side - 1 is what is left up to it.
-  const simd::I32 twice_partner = simd::shift_right(invert(lower, side), Axis::bits - unit.bits - 1);
+  simd::I32 distance = invert(lower, side);
+  const int finer_bits = Axis::bits - unit.bits - 1;
+  if (Rounds) distance = distance + all_int((std::int32_t{1} << finer_bits) >> 1);
+  const simd::I32 twice_partner = simd::shift_right(distance, finer_bits);
   const simd::I32 index = times<Axis::stride>(cell);
   if constexpr (Axis::cells == 1) return {index, all_int(0), twice_partner, all_int(0) == all_int(0)};
   if constexpr (Axis::end == Beyond::first_cell) {
@@ -90,10 +95,10 @@ template <class Axis>
 }
 
 /// The share of a position in the cell it lies in.
-template <class Axis>
+template <class Axis, bool Rounds = false>
 [[nodiscard, gnu::always_inline]] inline Share share_in_cell(simd::I32 position, const VoteUnit& unit) noexcept {
   const simd::I32 cell = cell_of<Axis>(position);
-  return share<Axis>(cell, position - simd::shift_left(cell, Axis::bits), unit);
+  return share<Axis, Rounds>(cell, position - simd::shift_left(cell, Axis::bits), unit);
 }
 
 template <int Axes>
@@ -114,6 +119,8 @@ template <int Axes>
 /// * `FlipRadius`: the signal's partner also gets the radial PARTNER's share in place of the radial cell's.
 template <bool FlipRadius>
 struct AdditiveVoting {
+  static constexpr bool partners_get_own_share = false;
+  static constexpr int weight_bits = 2;
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
@@ -161,12 +168,14 @@ using PublishedVoting = AdditiveVoting<true>;
 /// one short: a vote from the last bin but one up to the last one goes to the first one instead.
 template <bool WrapLastBin>
 struct SeparateVoting {
+  static constexpr bool partners_get_own_share = true;
+  static constexpr int weight_bits = 3;  // half units
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
   template <class Axis>
   [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
-    Share share = detail::share_in_cell<Axis>(position, unit);
+    Share share = detail::share_in_cell<Axis, true>(position, unit);
     if constexpr (Axis::below_zero == BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
       const simd::Mask nowhere = is_negative(position);
       share.twice_partner = drop(nowhere, share.twice_partner) + keep(nowhere, simd::all_int(2 * unit.one));
@@ -188,9 +197,9 @@ struct SeparateVoting {
 
     Votes<axes + 1> votes;
     votes.index[0] = detail::primary_index(shares);
-    votes.weight[0] = all_int(axes * unit.one) - simd::shift_right(twice_partners, 1);
+    votes.weight[0] = all_int(2 * axes * unit.one) - twice_partners;
     detail::unroll<axes>([&](auto i) {
-      const simd::I32 weight = simd::shift_right(shares[i].twice_partner, 1);
+      const simd::I32 weight = shares[i].twice_partner;
       simd::I32 index = votes.index[0] + shares[i].step;
       if constexpr (WrapLastBin && i == 3) {
         constexpr std::int32_t last = cells[3] - 1;
@@ -208,6 +217,8 @@ using PclVoting = SeparateVoting<true>;  ///< equal to PCL to the last quirk: fo
 
 /// The paper's equation (2): a point counts once, in the cell it falls into.
 struct HardVoting {
+  static constexpr bool partners_get_own_share = false;
+  static constexpr int weight_bits = 2;
   template <int Axes>
   static constexpr int votes = 1;
 
@@ -228,6 +239,8 @@ struct HardVoting {
 /// Multilinear interpolation: shares multiply, over all 2^N cells around the point. A partition of unity (every point
 /// counts exactly once in all: what has no partner stays in the cell) and continuous at every border between cells.
 struct MultilinearVoting {
+  static constexpr bool partners_get_own_share = false;
+  static constexpr int weight_bits = 2;
   template <int Axes>
   static constexpr int votes = 1 << Axes;
 
