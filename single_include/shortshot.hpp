@@ -3,7 +3,8 @@
 // with: cmake -P single_include/amalgamate.cmake
 #pragma once
 
-// shortshot: short colour-shape descriptors (SSH, SCSH) of RGB-D point clouds on small CPUs.
+// shortshot: short colour-shape descriptors (SSH, SCSH) of RGB-D point clouds on small CPUs, and their parents (SHOT,
+// CSHOT, B-SHOT).
 //
 // The umbrella. On bare metal it is the kernel: no heap, no exceptions, no operating system. Where there is an
 // operating system it adds what allocates: extract() for many key points, sampling, a grid with memory of its own.
@@ -1033,6 +1034,11 @@ struct Point {
   float x, y, z;
 };
 
+/// A surface normal: a unit vector, or NaN in all three where a point has none.
+struct Normal {
+  float x, y, z;
+};
+
 /// An sRGB colour.
 struct Rgb {
   std::uint8_t r, g, b;
@@ -1079,6 +1085,14 @@ namespace detail {
   return view;
 }
 
+/// The same cloud with `cloud.size` normals x y z (floats), borrowed like the points. `stride_bytes` is the distance
+/// between normals.
+[[nodiscard]] inline CloudView with_normals(CloudView cloud, const Normal* normals,
+                                            std::size_t stride_bytes = sizeof(Normal)) noexcept {
+  cloud.normals = detail::float3_channel(normals == nullptr ? nullptr : &normals->x, sizeof(float), stride_bytes);
+  return cloud;
+}
+
 /// The same cloud as an image of `width * height` pixels, row by row, for OrganizedSearch.
 [[nodiscard]] inline CloudView organized(CloudView cloud, std::size_t width, std::size_t height) noexcept {
   cloud.width = width;
@@ -1108,6 +1122,12 @@ namespace detail {
 
 [[nodiscard]] inline Point point(const CloudView& cloud, std::size_t index) noexcept {
   return read(cloud.points, index);
+}
+
+/// The normal of point `index`; the cloud must have normals.
+[[nodiscard]] inline Normal normal(const CloudView& cloud, std::size_t index) noexcept {
+  const Point n = read(cloud.normals, index);
+  return {n.x, n.y, n.z};
 }
 
 [[nodiscard]] inline bool is_finite(const Point& p) noexcept {
@@ -1215,7 +1235,8 @@ template <class Message>
 
 /// View of a message with members data (data(), size()), fields (name, offset, datatype), point_step, row_step, width,
 /// height and is_bigendian. Fields x, y, z must be FLOAT32; colour is a field `rgb` or `rgba`, a FLOAT32 or UINT32 with
-/// 0xAARRGGBB packed into it. The view borrows the message's bytes.
+/// 0xAARRGGBB packed into it; normals are FLOAT32 fields normal_x, normal_y, normal_z. The view borrows the message's
+/// bytes.
 ///
 /// Statuses: empty_cloud (no point); bad_view (and an empty view): no x, y or z of that type, a field outside
 /// point_step, data shorter than width * height points, padded rows, or the other byte order. No allocation.
@@ -1250,6 +1271,12 @@ template <class Message>
     const bool little = detail::is_little_endian();
     view.colors = {packed + (little ? 2 : 1), packed + (little ? 1 : 2), packed + (little ? 0 : 3), step};
   }
+  const std::int64_t normal_x = detail::offset_of(message, "normal_x", false);
+  const std::int64_t normal_y = detail::offset_of(message, "normal_y", false);
+  const std::int64_t normal_z = detail::offset_of(message, "normal_z", false);
+  if (normal_x >= 0 && normal_y >= 0 && normal_z >= 0) {
+    view.normals = {data + normal_x, data + normal_y, data + normal_z, step};
+  }
   return Status::ok;
 }
 
@@ -1263,7 +1290,8 @@ Status view_point_cloud2(const Message&& message, CloudView& view) = delete;
 // shortshot/adapters/structs.hpp: views of containers of structs, PCL's clouds among them, by their members' names.
 //
 // No other library is included: whatever has the members is understood. A point needs float x, y, z (in that or any
-// order, with any padding) and, for colour, one-byte r, g, b (in any order: PCL keeps b, g, r, a).
+// order, with any padding), for colour one-byte r, g, b (in any order: PCL keeps b, g, r, a), and for a normal float
+// normal_x, normal_y, normal_z, which may also stand in structs of their own.
 
 #include <iterator>
 #include <type_traits>
@@ -1279,19 +1307,47 @@ template <class P>
 struct HasRgb<P, std::void_t<decltype(P::r), decltype(P::g), decltype(P::b)>>
     : std::bool_constant<sizeof(P::r) == 1 && sizeof(P::g) == 1 && sizeof(P::b) == 1> {};
 
+template <class P, class = void>
+struct HasNormal : std::false_type {};
+template <class P>
+struct HasNormal<P, std::void_t<decltype(P::normal_x), decltype(P::normal_y), decltype(P::normal_z)>>
+    : std::bool_constant<std::is_same<std::remove_cv_t<decltype(P::normal_x)>, float>::value &&
+                         std::is_same<std::remove_cv_t<decltype(P::normal_y)>, float>::value &&
+                         std::is_same<std::remove_cv_t<decltype(P::normal_z)>, float>::value> {};
+
 template <class C, class = void>
 struct HasPoints : std::false_type {};
 template <class C>
 struct HasPoints<C, std::void_t<decltype(std::declval<const C&>().points.data())>> : std::true_type {};
+
+/// view_of()'s second argument is a container, unless it is a count.
+template <class C>
+using IfContainer = std::enable_if_t<!std::is_convertible<C, std::size_t>::value>;
+
+/// The structs in a container, or in the `points` of a pcl::PointCloud-shaped object.
+template <class C>
+[[nodiscard]] const auto& structs_of(const C& container) noexcept {
+  if constexpr (HasPoints<C>::value) {
+    return container.points;
+  } else {
+    return container;
+  }
+}
 
 template <class Member>
 [[nodiscard]] const unsigned char* bytes_of(const Member& member) noexcept {
   return reinterpret_cast<const unsigned char*>(&member);
 }
 
+template <class P>
+[[nodiscard]] Float3Channel normals_of(const P* structs, std::size_t count) noexcept {
+  if (structs == nullptr || count == 0) return {};
+  return {bytes_of(structs->normal_x), bytes_of(structs->normal_y), bytes_of(structs->normal_z), sizeof(P)};
+}
+
 }  // namespace detail
 
-/// View of `count` structs with members x, y, z and, if they have them, r, g, b.
+/// View of `count` structs with members x, y, z and, if they have them, r, g, b and normal_x, normal_y, normal_z.
 template <class P>
 [[nodiscard]] CloudView view_of(const P* points, std::size_t count) noexcept {
   static_assert(std::is_same<std::remove_cv_t<decltype(P::x)>, float>::value &&
@@ -1307,6 +1363,7 @@ template <class P>
   if constexpr (detail::HasRgb<P>::value) {
     view.colors = {detail::bytes_of(points->r), detail::bytes_of(points->g), detail::bytes_of(points->b), sizeof(P)};
   }
+  if constexpr (detail::HasNormal<P>::value) view.normals = detail::normals_of(points, count);
   return view;
 }
 
@@ -1314,26 +1371,48 @@ template <class P>
 /// `points` with data() and size(), and `width` and `height`.
 template <class Container>
 [[nodiscard]] CloudView view_of(const Container& cloud) noexcept {
+  const auto& structs = detail::structs_of(cloud);
+  const CloudView view = view_of(std::data(structs), std::size(structs));
   if constexpr (detail::HasPoints<Container>::value) {
-    const CloudView view = view_of(cloud.points.data(), cloud.points.size());
-    return static_cast<std::size_t>(cloud.width) * cloud.height == view.size
-               ? organized(view, cloud.width, cloud.height)
-               : view;
-  } else {
-    return view_of(std::data(cloud), std::size(cloud));
+    if (static_cast<std::size_t>(cloud.width) * cloud.height == view.size) {
+      return organized(view, cloud.width, cloud.height);
+    }
   }
+  return view;
+}
+
+/// The same with normals from a second container of structs with members normal_x, normal_y, normal_z, such as a
+/// pcl::PointCloud<pcl::Normal>; normals that the points have themselves are not read. bad_view if the numbers of
+/// structs differ.
+template <class Container, class Normals, class = detail::IfContainer<Normals>>
+[[nodiscard]] CloudView view_of(const Container& cloud, const Normals& normals) noexcept {
+  const auto& structs = detail::structs_of(normals);
+  using Struct = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(structs))>>;
+  static_assert(detail::HasNormal<Struct>::value,
+                "view_of() supports normals with float members normal_x, normal_y and normal_z");
+  CloudView view = view_of(cloud);
+  view.normals = detail::normals_of(std::data(structs), std::size(structs));
+  if (std::size(structs) != view.size) {  // a view of nothing, and of more than nothing: bad_view everywhere
+    view.points = {};
+    view.size = 1;
+  }
+  return view;
 }
 
 /// A container that dies at the end of the statement cannot be viewed.
 template <class Container>
 CloudView view_of(const Container&& cloud) = delete;
+template <class Container, class Normals, class = detail::IfContainer<Normals>>
+CloudView view_of(const Container&& cloud, const Normals& normals) = delete;
+template <class Container, class Normals, class = detail::IfContainer<Normals>>
+CloudView view_of(const Container& cloud, const Normals&& normals) = delete;
 
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
 // shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initialiser, no
 // libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
-// <type_traits> and <utility> of the standard library. <cstdint>, <cstring> and <type_traits>.
+// <type_traits> and <utility> of the standard library.
 
 // shortshot/binary.hpp: B-SHOT: one bit for each value of a descriptor, and the distance between such bits.
 //
@@ -1761,8 +1840,8 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
 /// A third of Lab's memory. L has 11 bits, a has 10 and b has 11, in steps that just cover what sRGB colours have (L
-/// 0..100, a -86.3..98.3, b -108..94.6; anything else is clamped to about that). 0 and 100 of L and 0 of a and b are
-/// exact.
+/// 0..100, a -86.3..98.3, b -108..94.6; anything else, as PclLab's white, is clamped to about that). 0 and 100 of L and 0
+/// of a and b are exact.
 ///
 /// The colour distance between an exact Lab and an sRGB colour that went through here is wrong by at most 2.9e-4 of its
 /// range 0..1 (half a step in each: 0.05 / 600 + 0.1875 / 1440 + 0.1015625 / 1440). In the generated scene (4 cm
@@ -2792,11 +2871,12 @@ template <class Predicate>
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
-// shortshot/symmetric_eigen.hpp: eigenvectors of a symmetric 3x3 matrix, in float, with the same bits everywhere.
+// shortshot/symmetric_eigen.hpp: eigenvectors of symmetric 3x3 matrices, in float, with the same bits everywhere.
 //
 // Cyclic Jacobi rotations: accurate to a few float epsilons whatever the spacing of the eigenvalues, no libm call but
-// the exactly rounded square root, 192 bytes of stack on a Cortex-M7. Eigen's solvers are as good on a PC, but the
-// direct one calls atan2, cos and sin (other bits with every libm) and both cost more flash than the rest of the frame.
+// the exactly rounded square root. Eigen's solvers are as good on a PC, but the direct one calls atan2, cos and sin
+// (other bits with every libm) and both cost more flash than the rest of the frame. Rotations take the same steps for
+// every matrix, so a register's lanes hold as many matrices, each with the bits that it would have alone.
 
 #include <initializer_list>
 
@@ -2815,62 +2895,73 @@ struct Eigen3 {
   float vectors[3][3];
 };
 
-/// Tangent of the angle, at most an eighth of a turn, by which the plane of two diagonal entries `gap` apart turns to
-/// make the entry `off` between them zero; 0 if that is not worth while: it moves no component by half its last bit.
-[[nodiscard]] inline float tangent(float gap, float off) noexcept {
-  const float wide = gap < 0.0f ? 0.0f - gap : gap;
-  const float high = off < 0.0f ? 0.0f - off : off;
-  if (high - 1e-12f <= rounded(wide * 7e-9f)) return 0.0f;
-  if (high * 8192.0f < wide) return off / gap;  // float knows no better; most rotations but the first few
-  const float root = simd::root(rounded(gap * gap) + rounded(4.0f * (off * off)));
-  return (off + off) / (gap < 0.0f ? gap - root : gap + root);
-}
+/// The same of one matrix in each lane.
+struct SymmetricLanes {
+  simd::F32 xx, xy, xz, yy, yz, zz;
+};
+struct EigenLanes {
+  simd::F32 values[3];
+  simd::F32 vectors[3][3];
+};
 
-/// One Jacobi rotation in the plane (p, q) that makes a[p][q] zero; the columns of v collect the rotations. Entries are
-/// at most 2. Returns whether it was worth while.
-inline bool rotate(float (&a)[3][3], float (&v)[3][3], int p, int q) noexcept {
-  const float t = tangent(a[q][q] - a[p][p], a[p][q]);
-  if (t == 0.0f) return false;
-  const float square = rounded(t * t) + 1.0f;
-  const float c = square == 1.0f ? 1.0f : 1.0f / simd::root(square);
-  const float s = t * c;
+/// One Jacobi rotation in the plane (p, q) that makes a[p][q] zero, in those lanes where that is worth while; the
+/// columns of v collect the rotations. Entries are at most 2. Returns whether it was worth while anywhere.
+inline bool rotate(simd::F32 (&a)[3][3], simd::F32 (&v)[3][3], int p, int q) noexcept {
+  using simd::all;
+  using simd::F32;
+  // The tangent of an angle of at most an eighth of a turn.
+  const F32 off = a[p][q];
+  const F32 gap = a[q][q] - a[p][p];
+  const F32 wide = simd::abs(gap);
+  const F32 high = simd::abs(off);
+  const simd::Mask turns = high - all(1e-12f) > wide * all(7e-9f);  // else no component moves by half its last bit
+  if (!any(turns)) return false;
+  const simd::Mask slight = all(8192.0f) * high < wide;  // float knows no better; most rotations but the first few
+  const F32 root = simd::sqrt(gap * gap + all(4.0f) * (off * off));
+  const F32 sum = gap + simd::negate(gap < all(0.0f), root);
+  const F32 t = keep(turns, select(slight, off, off + off) / select(slight, gap, sum));
+  const F32 c = all(1.0f) / simd::sqrt(t * t + all(1.0f));
+  const F32 s = t * c;
   const int r = 3 - p - q;  // the row that is not rotated
 
-  const float moved = rounded(t * a[p][q]);
+  const F32 moved = t * off;
   a[p][p] = a[p][p] - moved;
   a[q][q] = a[q][q] + moved;
-  a[p][q] = a[q][p] = 0.0f;
-  const float rp = a[r][p];
-  const float rq = a[r][q];
-  a[r][p] = a[p][r] = rounded(c * rp) - rounded(s * rq);
-  a[r][q] = a[q][r] = rounded(s * rp) + rounded(c * rq);
+  a[p][q] = a[q][p] = select(turns, all(0.0f), off);
+  const F32 rp = a[r][p];
+  const F32 rq = a[r][q];
+  a[r][p] = a[p][r] = c * rp - s * rq;
+  a[r][q] = a[q][r] = s * rp + c * rq;
   for (int k = 0; k < 3; ++k) {
-    const float vp = v[k][p];
-    const float vq = v[k][q];
-    v[k][p] = rounded(c * vp) - rounded(s * vq);
-    v[k][q] = rounded(s * vp) + rounded(c * vq);
+    const F32 vp = v[k][p];
+    const F32 vq = v[k][q];
+    v[k][p] = c * vp - s * vq;
+    v[k][q] = s * vp + c * vq;
   }
   return true;
 }
 
 /// The largest power of two not above the largest entry.
-[[nodiscard]] inline float scale_of(const Symmetric3& m) noexcept {
-  float largest = 1.17549435e-38f;
-  for (const float entry : {m.xx, m.xy, m.xz, m.yy, m.yz, m.zz}) {
-    const float size = entry < 0.0f ? 0.0f - entry : entry;
-    largest = size > largest ? size : largest;
+[[nodiscard]] inline simd::F32 scale_of(const SymmetricLanes& m) noexcept {
+  simd::F32 largest = simd::all(1.17549435e-38f);
+  for (const simd::F32* entry : {&m.xx, &m.xy, &m.xz, &m.yy, &m.yz, &m.zz}) {
+    largest = simd::max(simd::abs(*entry), largest);
   }
-  return math::power_of_two_below(largest);
+  return from_bits(bits_of(largest) & simd::all_int(0x7F800000));
 }
 
-/// Eigen-decomposition of m. Converges quadratically: six sweeps are twice what any float matrix was seen to need.
-[[nodiscard]] inline Eigen3 decompose(const Symmetric3& m) noexcept {
-  const float scale = scale_of(m);
-  const float unit = 1.0f / scale;
-  float a[3][3] = {{m.xx * unit, m.xy * unit, m.xz * unit},
-                   {m.xy * unit, m.yy * unit, m.yz * unit},
-                   {m.xz * unit, m.yz * unit, m.zz * unit}};
-  float v[3][3] = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+/// Eigen-decompositions. They converge quadratically: six sweeps are twice what any float matrix was seen to need.
+[[nodiscard]] inline EigenLanes decompose_lanes(const SymmetricLanes& m) noexcept {
+  using simd::all;
+  using simd::F32;
+  const F32 scale = scale_of(m);
+  const F32 unit = all(1.0f) / scale;
+  const F32 zero = all(0.0f);
+  const F32 one = all(1.0f);
+  F32 a[3][3] = {{m.xx * unit, m.xy * unit, m.xz * unit},
+                 {m.xy * unit, m.yy * unit, m.yz * unit},
+                 {m.xz * unit, m.yz * unit, m.zz * unit}};
+  F32 v[3][3] = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
   bool turned = true;
   for (int sweep = 0; sweep < 6 && turned; ++sweep) {
     turned = rotate(a, v, 0, 1);
@@ -2878,24 +2969,42 @@ inline bool rotate(float (&a)[3][3], float (&v)[3][3], int p, int q) noexcept {
     turned = rotate(a, v, 1, 2) || turned;
   }
 
-  int order[3] = {0, 1, 2};
   const auto sort_pair = [&](int i, int j) {
-    if (a[order[j]][order[j]] >= a[order[i]][order[i]]) return;
-    const int swapped = order[i];
-    order[i] = order[j];
-    order[j] = swapped;
+    const simd::Mask swap = a[j][j] < a[i][i];
+    const auto exchange = [&](F32& first, F32& second) {
+      const F32 before = first;
+      first = select(swap, second, first);
+      second = select(swap, before, second);
+    };
+    exchange(a[i][i], a[j][j]);
+    for (F32(&row)[3] : v) exchange(row[i], row[j]);
   };
   sort_pair(0, 1);
   sort_pair(1, 2);
   sort_pair(0, 1);
 
+  EigenLanes result;
+  for (int i = 0; i < 3; ++i) {
+    const F32 length = simd::sqrt(v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
+    result.values[i] = a[i][i] * scale;
+    for (int k = 0; k < 3; ++k) result.vectors[i][k] = v[k][i] / length;
+  }
+  return result;
+}
+
+/// Eigen-decomposition of one matrix.
+[[nodiscard]] inline Eigen3 decompose(const Symmetric3& m) noexcept {
+  using simd::all;
+  const EigenLanes lanes = decompose_lanes({all(m.xx), all(m.xy), all(m.xz), all(m.yy), all(m.yz), all(m.zz)});
+  const auto first = [](simd::F32 number) {
+    float values[simd::lanes];
+    simd::store(values, number);
+    return values[0];
+  };
   Eigen3 result;
   for (int i = 0; i < 3; ++i) {
-    const int column = order[i];
-    const auto square = [&](int k) { return rounded(v[k][column] * v[k][column]); };
-    const float length = simd::root(square(0) + square(1) + square(2));
-    result.values[i] = a[column][column] * scale;
-    for (int k = 0; k < 3; ++k) result.vectors[i][k] = v[k][column] / length;
+    result.values[i] = first(lanes.values[i]);
+    for (int k = 0; k < 3; ++k) result.vectors[i][k] = first(lanes.vectors[i][k]);
   }
   return result;
 }
@@ -3696,12 +3805,9 @@ template <class D, class Search>
 
 namespace detail {
 
-/// Search, with the larger of the two radii.
-template <class Search>
-[[nodiscard]] inline Status gather(const Search& search, const Point& center, const Support& support,
-                                   Neighborhood& n) noexcept {
-  const bool wide_frame = support.frame_radius.squared > support.radius.squared;
-  return search.gather(center, wide_frame ? support.frame_radius : support.radius, n);
+/// The larger of the two radii.
+[[nodiscard]] inline Radius gather_radius(const Support& support) noexcept {
+  return support.frame_radius.squared > support.radius.squared ? support.frame_radius : support.radius;
 }
 
 /// The source of a cloud's own normals.
@@ -3747,7 +3853,7 @@ template <class D, class Search, std::size_t MaxNeighbors, class Finish>
   if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
   if (status != Status::ok) return status;
   Neighborhood n = neighborhood_in(workspace);
-  status = gather(search, key.position, support, n);
+  status = search.gather(key.position, gather_radius(support), n);
   return status == Status::ok ? finish(n, rgb_colors<D>(cloud, key.color)) : status;
 }
 
@@ -3794,6 +3900,182 @@ template <class D, class Search, std::size_t MaxNeighbors>
   if (status != Status::ok) return status;
   if (index >= cloud.size) return Status::bad_keypoint;
   return describe_at<D>(cloud, search, keypoint(cloud, index), support, workspace, out);
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/normals.hpp: the surface normal of a gathered neighbourhood.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// Fewest neighbours (the key point and its copies included) for a normal, as in PCL.
+inline constexpr int min_normal_neighbors = 3;
+
+namespace detail {
+
+/// How members are brought to fixed point: coordinates times `unit`, which makes the farthest one at most 1 long; then
+/// they, and products of two of them, times `scale`, a power of two.
+struct MomentScale {
+  float unit;
+  float scale;
+};
+
+/// The same for all neighbourhoods of a radius and of up to max_plain_members: terms of 20 bits, sums below 2^31.
+inline constexpr std::uint32_t max_plain_members = 2047;
+[[nodiscard]] inline MomentScale plain_scale(Radius radius) noexcept { return {1.0f / radius.value, 1048576.0f}; }
+
+/// The finest for one neighbourhood: its farthest member is 1 long, terms have up to 22 bits.
+[[nodiscard]] inline MomentScale finest_scale(const Neighborhood& n, Radius radius) noexcept {
+  simd::F32 farthest = simd::all(0.0f);
+  for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
+    const simd::F32 d2 = load_offsets(n, i).d2;
+    farthest = simd::max(farthest, keep(d2 < simd::all(radius.squared), d2));
+  }
+  // Below 1e-19 m squares are lost to underflow: such members count as if they were at the key point.
+  const float root = simd::root(simd::largest(farthest));
+  const float room = 1073741824.0f / static_cast<float>(n.size);
+  return {1.0f / (root > 1e-19f ? root : 1e-19f), math::power_of_two_below(room < 4194304.0f ? room : 4194304.0f)};
+}
+
+/// Sums over the members of a neighbourhood: all that its plane depends on. Integers, see fixed_point.hpp. Lanes hold
+/// either shares of one neighbourhood, or neighbourhoods.
+struct Moments {
+  simd::I32 members, x, y, z, xx, xy, xz, yy, yz, zz;
+};
+
+[[gnu::always_inline]] inline void add(Moments& to, const Offsets& v, Radius radius, const MomentScale& by) noexcept {
+  using simd::all;
+  using simd::F32;
+  const simd::Mask near = v.d2 < all(radius.squared);
+  const F32 x = v.dx * all(by.unit);
+  const F32 y = v.dy * all(by.unit);
+  const F32 z = v.dz * all(by.unit);
+  const F32 wx = keep(near, x * all(by.scale));
+  const F32 wy = keep(near, y * all(by.scale));
+  const F32 wz = keep(near, z * all(by.scale));
+  to.members = increment(near, to.members);
+  to.x = to.x + round_to_int(wx);
+  to.y = to.y + round_to_int(wy);
+  to.z = to.z + round_to_int(wz);
+  to.xx = to.xx + round_to_int(wx * x);
+  to.xy = to.xy + round_to_int(wx * y);
+  to.xz = to.xz + round_to_int(wx * z);
+  to.yy = to.yy + round_to_int(wy * y);
+  to.yz = to.yz + round_to_int(wy * z);
+  to.zz = to.zz + round_to_int(wz * z);
+}
+
+/// The sums over one neighbourhood, in every lane.
+[[nodiscard]] inline Moments moments_of(const Neighborhood& n, Radius radius, const MomentScale& by) noexcept {
+  Moments m{};
+  std::uint32_t i = 0;
+  for (; i < n.size; i += simd::lanes) add(m, load_offsets(n, i), radius, by);
+  const auto total = [](simd::I32 shares) { return simd::all_int(sum(shares)); };
+  const auto left_over = static_cast<std::int32_t>(i - n.size);  // what fills up the last register
+  return {total(m.members) - simd::all_int(left_over),
+          total(m.x),
+          total(m.y),
+          total(m.z),
+          total(m.xx),
+          total(m.xy),
+          total(m.xz),
+          total(m.yy),
+          total(m.yz),
+          total(m.zz)};
+}
+
+/// Are there enough members, and do they reach far enough in the unit for their rounding to integers to mean nothing?
+[[nodiscard]] inline simd::Mask is_fine(const Moments& m, const MomentScale& by) noexcept {
+  const simd::Mask enough = m.members > simd::all_int(min_normal_neighbors - 1);
+  return enough & (to_float(m.xx + m.yy + m.zz) > to_float(m.members) * simd::all(0.0625f * by.scale));
+}
+
+/// A vector in each lane.
+struct VectorLanes {
+  simd::F32 x, y, z;
+};
+
+[[nodiscard]] inline VectorLanes keep(simd::Mask m, const VectorLanes& v) noexcept {
+  return {keep(m, v.x), keep(m, v.y), keep(m, v.z)};
+}
+
+/// Unit vectors along which the members scatter least about their centroid, turned `towards` something; zeros where
+/// they lie on a line, or in one place.
+[[nodiscard]] inline VectorLanes normals_of(const Moments& m, const MomentScale& by,
+                                            const VectorLanes& towards) noexcept {
+  using simd::all;
+  using simd::F32;
+  const F32 members = to_float(m.members);
+  const F32 x = to_float(m.x);
+  const F32 y = to_float(m.y);
+  const F32 z = to_float(m.z);
+  const F32 weight = all(1.0f) / (members * all(by.scale));
+  const F32 mean_x = x * weight;
+  const F32 mean_y = y * weight;
+  const F32 mean_z = z * weight;
+  const EigenLanes eigen =
+      decompose_lanes({to_float(m.xx) - x * mean_x, to_float(m.xy) - x * mean_y, to_float(m.xz) - x * mean_z,
+                       to_float(m.yy) - y * mean_y, to_float(m.yz) - y * mean_z, to_float(m.zz) - z * mean_z});
+  // What float can tell apart, and what the rounding of the members to integers may have moved.
+  const F32 resolution = all(1e-6f) * eigen.values[2] + all(4.0f) * members;
+  const simd::Mask flat = eigen.values[1] - eigen.values[0] > resolution;
+  const F32(&axis)[3] = eigen.vectors[0];
+  const simd::Mask away = (axis[0] * towards.x + axis[2] * towards.z) + axis[1] * towards.y < all(0.0f);
+  const auto turned = [&](int k) { return negate(away, axis[k]) + all(0.0f); };  // no negative zeros
+  return keep(flat, VectorLanes{turned(0), turned(1), turned(2)});
+}
+
+/// The normal in one lane.
+[[nodiscard]] inline Normal normal_in(const VectorLanes& v, std::size_t lane) noexcept {
+  float components[3][simd::lanes];
+  simd::store(components[0], v.x);
+  simd::store(components[1], v.y);
+  simd::store(components[2], v.z);
+  return {components[0][lane], components[1][lane], components[2][lane]};
+}
+
+[[nodiscard]] inline bool is_zero(const Normal& n) noexcept { return n.x == 0.0f && n.y == 0.0f && n.z == 0.0f; }
+
+}  // namespace detail
+
+/// The normal of the plane through a gathered neighbourhood: the direction in which the neighbours within `radius`
+/// scatter least about their centroid, the key point and its copies among them. Source: PCL 1.13's NormalEstimation.
+///
+/// `radius` may be smaller than the one the neighbourhood was gathered with.
+/// `towards_viewpoint`, if not null, is a vector (3 floats, any length) from the key point to the camera, to whose side
+/// the normal is turned. If it is null or at right angles to the normal, the sign is the solver's: arbitrary, but the
+/// same on every machine.
+///
+/// Statuses: bad_radius; bad_viewpoint (not finite); too_many_neighbors (more than 2^24); too_few_neighbors (fewer than
+/// three); ambiguous_frame (the two smaller extents are equal within float resolution: the neighbours lie on a line, or
+/// in one place). `normal` is zeroed then. No allocation, reentrant. The result does not depend on the order of the
+/// neighbours.
+[[nodiscard]] inline Status estimate_normal(const Neighborhood& n, Radius radius, const float* towards_viewpoint,
+                                            Normal& normal) noexcept {
+  normal = Normal{};
+  const Status usable = check(radius);
+  if (usable != Status::ok) return usable;
+  if (n.size > max_neighbors) return Status::too_many_neighbors;
+  float view[3] = {};
+  for (int k = 0; k < 3 && towards_viewpoint != nullptr; ++k) view[k] = towards_viewpoint[k];
+  if (!math::is_finite(view)) return Status::bad_viewpoint;
+
+  const detail::VectorLanes towards{simd::all(view[0]), simd::all(view[1]), simd::all(view[2])};
+  detail::MomentScale scale = detail::plain_scale(radius);
+  if (n.size <= detail::max_plain_members) {
+    const detail::Moments moments = detail::moments_of(n, radius, scale);
+    if (any(detail::is_fine(moments, scale))) {
+      normal = detail::normal_in(detail::normals_of(moments, scale, towards), 0);
+      if (!detail::is_zero(normal)) return Status::ok;
+    }
+  }
+  scale = detail::finest_scale(n, radius);
+  const detail::Moments moments = detail::moments_of(n, radius, scale);
+  if (any(simd::all_int(min_normal_neighbors) > moments.members)) return Status::too_few_neighbors;
+  normal = detail::normal_in(detail::normals_of(moments, scale, towards), 0);
+  return detail::is_zero(normal) ? Status::ambiguous_frame : Status::ok;
 }
 
 }  // namespace SHORTSHOT_ISA
@@ -4573,10 +4855,151 @@ inline constexpr int version_patch = 0;
 
 #if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
 
-// shortshot/extract.hpp: many key points at once, on one or more threads. Hosted only: allocates, starts threads.
+// shortshot/adapters/pcl.hpp: descriptors as PCL's clouds of signatures, without including PCL. Hosted only.
+//
+// The other way needs nothing: of a pcl::PointCloud<pcl::SHOT352> `cloud`, the floats of row i are cloud[i].descriptor,
+// in the layout of PclShot352, for binarize() and for comparing with rows of Features.
 
 #include <algorithm>
+#include <limits>
+
+// shortshot/features.hpp: what extract() gives, with the memory that it uses again for the next cloud. Hosted only.
+
 #include <vector>
+
+// shortshot/lab_table.hpp: sRGB bytes -> CIELAB by a table of roots, for whole clouds. Hosted only: allocates.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// What to_lab<Rule>() gives, bit for bit: the roots are the same ones, taken once for each of the 4001 steps that a
+/// ratio can have. 16 KB; filling it costs as much as to_lab() of 1300 colours.
+template <class Rule>
+class LabTable {
+ public:
+  /// To be called before the first colour; does nothing where it was called before. May throw std::bad_alloc.
+  void fill() {
+    if (!roots_.empty()) return;
+    roots_.reserve(detail::last_ratio_step + 1);
+    for (int step = 0; step <= detail::last_ratio_step; ++step) roots_.push_back(detail::root_of_step<Rule>(step));
+  }
+
+  [[nodiscard]] Lab operator()(Rgb color) const noexcept {
+    return detail::lab_by([roots = roots_.data()](int step) { return roots[step]; }, color);
+  }
+
+ private:
+  std::vector<float> roots_;
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// A workspace that grows: one per thread.
+class GrowingWorkspace {
+ public:
+  [[nodiscard]] Neighborhood neighborhood() noexcept {
+    const std::size_t n = index_.size();
+    float* p = floats_.data();
+    return {p, p + n, p + 2 * n, p + 3 * n, index_.data(), static_cast<std::uint32_t>(n), 0, 0};
+  }
+
+  /// A search's gather(); grows until the neighbours fit.
+  template <class Search>
+  [[nodiscard]] Status gather(const Search& search, const Point& center, Radius radius, Neighborhood& n) {
+    n = neighborhood();
+    const Status status = search.gather(center, radius, n);
+    if (status != Status::too_many_neighbors || n.found > max_neighbors) return status;
+    reserve(n.found);
+    n = neighborhood();
+    return search.gather(center, radius, n);
+  }
+
+  /// Room for `neighbors`; half as much again where it has to grow, so that it seldom does.
+  void reserve(std::size_t neighbors) {
+    if (neighbors <= index_.size()) return;
+    const std::size_t capacity = neighbors + neighbors / 2;
+    floats_.resize(4 * capacity);
+    index_.resize(capacity);
+  }
+
+ private:
+  std::vector<float> floats_;
+  std::vector<std::uint32_t> index_;
+};
+
+}  // namespace detail
+
+/// What extract() gives: one row per key point, in their order. Keep it from frame to frame and its memory is reused.
+/// `Color` is how a cloud's colours are kept meanwhile: Lab, 12 bytes a point, or PackedLab, 4 bytes a point and less
+/// exact.
+template <class D, class Color = Lab>
+struct Features {
+  static_assert(std::is_same<Color, Lab>::value || std::is_same<Color, PackedLab>::value,
+                "Features<D, Color> supports Lab and PackedLab");
+
+  std::vector<float> values;             ///< size() * D::size, row by row; zeros where the status is not ok
+  std::vector<Status> status;            ///< one per key point
+  std::vector<Frame> frames;             ///< the local reference frame of each; zeros where the status is not ok
+  std::vector<std::uint32_t> neighbors;  ///< found within the larger radius, the key point itself included
+
+  [[nodiscard]] std::size_t size() const noexcept { return status.size(); }
+  [[nodiscard]] const float* operator[](std::size_t row) const noexcept {
+    return values.data() + row * static_cast<std::size_t>(D::size);
+  }
+
+  struct {
+    LabTable<typename D::LabRule> to_lab;
+    std::vector<Color> lab;                            // the cloud's colours
+    std::vector<detail::GrowingWorkspace> workspaces;  // one per thread
+  } scratch;                                           ///< extract()'s own; nothing to read there
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// Copies features into a cloud shaped as pcl::PointCloud<pcl::SHOT352> or <pcl::SHOT1344>: `points` of structs with
+/// float descriptor[D::size] and rf[9], `width`, `height`, `is_dense`. One point per key point, in order; rf is the
+/// frame's axes x, y and z.
+///
+/// A key point without descriptor is NaN in all its floats, as in PCL, and the cloud is not dense then. Allocates the
+/// points; may throw what their resize() does.
+template <class D, class Color, class PclCloud>
+void to_pcl(const Features<D, Color>& features, PclCloud& cloud) {
+  using Signature = std::remove_reference_t<decltype(cloud.points[0])>;
+  static_assert(sizeof(Signature::descriptor) == D::size_bytes && sizeof(Signature::rf) == sizeof(Frame),
+                "to_pcl() supports clouds of structs with float descriptor[D::size] and rf[9]");
+  constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+  cloud.points.resize(features.size());
+  cloud.width = static_cast<std::uint32_t>(features.size());
+  cloud.height = 1;
+  cloud.is_dense = true;
+  for (std::size_t row = 0; row < features.size(); ++row) {
+    Signature& out = cloud.points[row];
+    if (features.status[row] == Status::ok) {
+      std::copy_n(features[row], D::size, out.descriptor);
+      const Frame& frame = features.frames[row];
+      std::copy_n(frame.z, 3, std::copy_n(frame.y, 3, std::copy_n(frame.x, 3, out.rf)));
+    } else {
+      std::fill_n(out.descriptor, D::size, not_a_number);
+      std::fill_n(out.rf, 9, not_a_number);
+      cloud.is_dense = false;
+    }
+  }
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/estimate_normals.hpp: the surface normals of a whole cloud, on one or more threads. Hosted only: allocates,
+// starts threads.
 
 // shortshot/executor.hpp: who does extract()'s work: threads started for one call, or an executor of the caller's.
 // Hosted only.
@@ -4625,8 +5048,9 @@ struct IsExecutor<T, std::void_t<decltype(static_cast<std::size_t>(std::declval<
 template <class Threads>
 [[nodiscard]] decltype(auto) executor_of(Threads& threads, std::size_t blocks) {
   constexpr bool is_number = std::is_integral<Threads>::value;
-  static_assert(is_number || IsExecutor<Threads>::value,
-                "extract() supports a number of threads, or an executor with threads() and run(work)");
+  static_assert(
+      is_number || IsExecutor<Threads>::value,
+      "extract() and estimate_normals() support a number of threads, or an executor with threads() and run(work)");
   if constexpr (is_number) {
     const std::size_t wanted = threads > 0 ? static_cast<std::size_t>(threads) : 1;
     return StartedThreads(std::max<std::size_t>(1, std::min(wanted, blocks)));
@@ -4672,91 +5096,181 @@ void for_blocks(Executor& executor, std::size_t threads, std::size_t count, std:
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
-// shortshot/features.hpp: what extract() gives, with the memory that it uses again for the next cloud. Hosted only.
-
-// shortshot/lab_table.hpp: sRGB bytes -> CIELAB by a table of roots, for whole clouds. Hosted only: allocates.
-
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-
-/// What to_lab<Rule>() gives, bit for bit: the roots are the same ones, taken once for each of the 4001 steps that a
-/// ratio can have. 16 KB; filling it costs as much as to_lab() of 1300 colours.
-template <class Rule>
-class LabTable {
- public:
-  /// To be called before the first colour; does nothing where it was called before. May throw std::bad_alloc.
-  void fill() {
-    if (!roots_.empty()) return;
-    roots_.reserve(detail::last_ratio_step + 1);
-    for (int step = 0; step <= detail::last_ratio_step; ++step) roots_.push_back(detail::root_of_step<Rule>(step));
-  }
-
-  [[nodiscard]] Lab operator()(Rgb color) const noexcept {
-    return detail::lab_by([roots = roots_.data()](int step) { return roots[step]; }, color);
-  }
-
- private:
-  std::vector<float> roots_;
-};
-
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
-
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// A workspace that grows: one per thread.
-class GrowingWorkspace {
+/// Points that a thread takes at a time: about a quarter of a millisecond of work.
+inline constexpr std::size_t normal_block = 512;
+
+/// Estimates normals of a few points at a time. Points that follow each other in a cloud mostly lie side by side: one
+/// search, a little wider, finds the neighbours of all, and each candidate is offered to all of them in lanes.
+template <class Search>
+class NormalEstimator {
  public:
-  [[nodiscard]] Neighborhood neighborhood() noexcept {
-    const std::size_t n = index_.size();
-    float* p = floats_.data();
-    return {p, p + n, p + 2 * n, p + 3 * n, index_.data(), static_cast<std::uint32_t>(n), 0, 0};
+  NormalEstimator(const CloudView& cloud, const Search& search, Radius radius, const Point& viewpoint,
+                  GrowingWorkspace& workspace, Normal* normals) noexcept
+      : cloud_(cloud),
+        search_(search),
+        radius_(radius),
+        viewpoint_(viewpoint),
+        workspace_(workspace),
+        normals_(normals) {
+    const bool image = cloud.height > 1 && cloud.size % cloud.height == 0 && cloud.size / cloud.height == cloud.width;
+    row_ = image ? cloud.width : 0;
   }
 
-  /// Room for `neighbors`; half as much again where it has to grow, so that it seldom does.
-  void reserve(std::size_t neighbors) {
-    if (neighbors <= index_.size()) return;
-    const std::size_t capacity = neighbors + neighbors / 2;
-    floats_.resize(4 * capacity);
-    index_.resize(capacity);
+  void estimate(std::size_t begin, std::size_t end) {
+    constexpr float none = std::numeric_limits<float>::quiet_NaN();
+    std::size_t used = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t i = in_zigzag(k);
+      normals_[i] = {none, none, none};
+      const Point p = point(cloud_, i);
+      if (!is_finite(p)) continue;
+      index_[used] = i;
+      x_[used] = p.x;
+      y_[used] = p.y;
+      z_[used] = p.z;
+      if (++used < group) continue;
+      estimate_group();
+      used = 0;
+    }
+    for (std::size_t k = 0; k < used; ++k) estimate_alone(k);
   }
 
  private:
-  std::vector<float> floats_;
-  std::vector<std::uint32_t> index_;
+  static constexpr std::size_t group = 8;
+  static_assert(group % simd::lanes == 0, "whole registers");
+
+  /// The k-th point, where two rows of an image are walked at once: what follows each other then lies in a square.
+  [[nodiscard]] std::size_t in_zigzag(std::size_t k) const noexcept {
+    if (row_ == 0) return k;
+    const std::size_t first = k - k % (2 * row_);
+    return cloud_.size - first < 2 * row_ ? k : first + (k - first) / 2 + k % 2 * row_;
+  }
+
+  void estimate_group() {
+    Normal found[group] = {};
+    Neighborhood candidates;
+    if (gather_for_all(candidates)) {
+      for (std::size_t first = 0; first < group; first += simd::lanes) {
+        estimate_register(candidates, first, found + first);
+      }
+    }
+    for (std::size_t k = 0; k < group; ++k) {
+      if (is_zero(found[k])) {
+        estimate_alone(k);
+      } else {
+        normals_[index_[k]] = found[k];
+      }
+    }
+  }
+
+  /// Candidates for the neighbours of all points of the group; false if it is not worth while.
+  [[nodiscard]] bool gather_for_all(Neighborhood& candidates) {
+    const auto middle = [](const float(&v)[group]) {
+      const auto ends = std::minmax_element(v, v + group);
+      return 0.5f * (*ends.first + *ends.second);
+    };
+    const Point center{middle(x_), middle(y_), middle(z_)};
+    float farthest_d2 = 0.0f;
+    for (std::size_t k = 0; k < group; ++k) {
+      const float dx = x_[k] - center.x;
+      const float dy = y_[k] - center.y;
+      const float dz = z_[k] - center.z;
+      farthest_d2 = std::max(farthest_d2, rounded(dx * dx) + rounded(dy * dy) + rounded(dz * dz));
+    }
+    const Radius wide((radius_.value + simd::root(farthest_d2)) * 1.00001f);  // more than all roundings
+    return wide.value < 3.0f * radius_.value && check(wide) == Status::ok &&
+           workspace_.gather(search_, center, wide, candidates) == Status::ok && candidates.size <= max_plain_members;
+  }
+
+  /// One register of the group, from point `first` on; zeros for those that need to be looked at alone.
+  void estimate_register(const Neighborhood& candidates, std::size_t first, Normal* found) const noexcept {
+    const simd::F32 x = simd::load(x_ + first);
+    const simd::F32 y = simd::load(y_ + first);
+    const simd::F32 z = simd::load(z_ + first);
+    const MomentScale scale = plain_scale(radius_);
+    const CloudView cloud = cloud_;
+    Moments moments{};
+    for (std::uint32_t i = 0; i < candidates.size; ++i) {
+      const Point p = point(cloud, candidates.index[i]);
+      const simd::F32 dx = simd::all(p.x) - x;
+      const simd::F32 dy = simd::all(p.y) - y;
+      const simd::F32 dz = simd::all(p.z) - z;
+      add(moments, {dx, dy, dz, (dx * dx + dy * dy) + dz * dz}, radius_, scale);
+    }
+    const VectorLanes towards{simd::all(viewpoint_.x) - x, simd::all(viewpoint_.y) - y, simd::all(viewpoint_.z) - z};
+    const VectorLanes normals = keep(is_fine(moments, scale), normals_of(moments, scale, towards));
+    for (std::size_t lane = 0; lane < simd::lanes; ++lane) found[lane] = normal_in(normals, lane);
+  }
+
+  void estimate_alone(std::size_t k) {
+    Neighborhood n;
+    const float towards[3] = {viewpoint_.x - x_[k], viewpoint_.y - y_[k], viewpoint_.z - z_[k]};
+    Normal found{};
+    if (workspace_.gather(search_, {x_[k], y_[k], z_[k]}, radius_, n) != Status::ok) return;
+    if (estimate_normal(n, radius_, towards, found) == Status::ok) normals_[index_[k]] = found;
+  }
+
+  const CloudView cloud_;
+  const Search& search_;
+  const Radius radius_;
+  const Point viewpoint_;
+  GrowingWorkspace& workspace_;
+  Normal* const normals_;
+  std::size_t index_[group];
+  float x_[group];
+  float y_[group];
+  float z_[group];
+  std::size_t row_;  // of an image, in points; 0 for other clouds
 };
 
 }  // namespace detail
 
-/// What extract() gives: one row per key point, in their order. Keep it from frame to frame and its memory is reused.
-/// `Color` is how a cloud's colours are kept meanwhile: Lab, 12 bytes a point, or PackedLab, 4 bytes a point and less
-/// exact.
-template <class D, class Color = Lab>
-struct Features {
-  static_assert(std::is_same<Color, Lab>::value || std::is_same<Color, PackedLab>::value,
-                "Features<D, Color> supports Lab and PackedLab");
+/// The surface normal at each point of a cloud (see estimate_normal()).
+///
+/// `search`     any search over this cloud (GridSearch, NanoflannSearch, ...)
+/// `radius`     of the neighbourhoods, in metres
+/// `normals`    one per point, all three components NaN where the point is not finite or has no normal: fewer than
+///              three neighbours, or all of them on a line. with_normals(cloud, normals.data()) puts them into a view
+/// `viewpoint`  where the camera is, in the cloud's coordinates: normals point to its side of the surface
+/// `threads`    how many threads share the work, or an executor (see extract()); the result is the same, bit for bit,
+///              for any number, and for any search
+///
+/// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint (not
+/// finite), or what the search's build() returned; `normals` is empty then. Allocates the normals (none, if they fit
+/// already) and about 30 bytes for each neighbour of the largest neighbourhood and each thread. May throw what
+/// extract() may.
+template <class Search, class Threads = unsigned>
+[[nodiscard]] Status estimate_normals(const CloudView& cloud, const Search& search, Radius radius,
+                                      std::vector<Normal>& normals, Point viewpoint = {}, Threads&& threads = 1u) {
+  normals.clear();
+  Status status = check(cloud);
+  if (status == Status::ok) status = search.status();
+  if (status == Status::ok && search.cloud_size() != cloud.size) status = Status::bad_view;
+  if (status == Status::ok) status = check(radius);
+  if (status == Status::ok && !is_finite(viewpoint)) status = Status::bad_viewpoint;
+  if (status != Status::ok) return status;
 
-  std::vector<float> values;             ///< size() * D::size, row by row; zeros where the status is not ok
-  std::vector<Status> status;            ///< one per key point
-  std::vector<Frame> frames;             ///< the local reference frame of each; zeros where the status is not ok
-  std::vector<std::uint32_t> neighbors;  ///< found within the larger radius, the key point itself included
-
-  [[nodiscard]] std::size_t size() const noexcept { return status.size(); }
-  [[nodiscard]] const float* operator[](std::size_t row) const noexcept {
-    return values.data() + row * static_cast<std::size_t>(D::size);
-  }
-
-  struct {
-    LabTable<typename D::LabRule> to_lab;
-    std::vector<Color> lab;                            // the cloud's colours
-    std::vector<detail::GrowingWorkspace> workspaces;  // one per thread
-  } scratch;                                           ///< extract()'s own; nothing to read there
-};
+  auto&& executor = detail::executor_of(threads, (cloud.size + detail::normal_block - 1) / detail::normal_block);
+  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
+  std::vector<detail::GrowingWorkspace> workspaces(team);
+  for (detail::GrowingWorkspace& workspace : workspaces) workspace.reserve(detail::max_plain_members);
+  normals.resize(cloud.size);
+  detail::for_blocks(
+      executor, team, cloud.size, detail::normal_block, [&](std::size_t thread, std::size_t begin, std::size_t end) {
+        detail::NormalEstimator<Search>(cloud, search, radius, viewpoint, workspaces[thread], normals.data())
+            .estimate(begin, end);
+      });
+  return Status::ok;
+}
 
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
+
+// shortshot/extract.hpp: many key points at once, on one or more threads. Hosted only: allocates, starts threads.
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -4776,13 +5290,8 @@ template <class D, class Color, class Search>
                                  const Support& support, GrowingWorkspace& workspace, Features<D, Color>& out,
                                  std::size_t row) {
   if (!is_finite(key.position)) return Status::invalid_keypoint;
-  Neighborhood n = workspace.neighborhood();
-  Status status = gather(search, key.position, support, n);
-  if (status == Status::too_many_neighbors && n.found <= max_neighbors) {
-    workspace.reserve(n.found);
-    n = workspace.neighborhood();
-    status = gather(search, key.position, support, n);
-  }
+  Neighborhood n;
+  const Status status = workspace.gather(search, key.position, gather_radius(support), n);
   out.neighbors[row] = n.found;
   if (status != Status::ok) return status;
   float* values = out.values.data() + row * static_cast<std::size_t>(D::size);
@@ -5155,15 +5664,42 @@ struct EigenPoints {
   }
 };
 
-/// Matrices own their memory; maps and blocks borrow it.
-template <class Matrix>
-using IfOwning = std::enable_if_t<std::is_base_of<Eigen::PlainObjectBase<Matrix>, Matrix>::value>;
+/// Matrices own their memory; maps and blocks borrow it. Of arguments that a function takes as Argument&&: is this one
+/// a matrix that dies at the end of the statement?
+template <class Argument>
+struct IsDyingMatrix : std::is_base_of<Eigen::PlainObjectBase<std::remove_cv_t<Argument>>, std::remove_cv_t<Argument>> {
+};
+template <class Argument>
+struct IsDyingMatrix<Argument&> : std::false_type {};
+
+/// Bytes are colours, floats are normals.
+template <class Channel>
+void add_channel(CloudView& view, const Channel& matrix) noexcept {
+  using Scalar = typename Channel::Scalar;
+  static_assert(sizeof(Scalar) == 1 || std::is_same<Scalar, float>::value,
+                "view_eigen() supports colours of one byte each, and normals of floats");
+  using Rows = EigenPoints<Channel>;
+  const std::size_t step = Rows::component_step(matrix) * sizeof(Scalar);
+  const std::size_t stride = Rows::point_step(matrix) * sizeof(Scalar);
+  if constexpr (sizeof(Scalar) == 1) {
+    view.colors = color_channel(reinterpret_cast<const unsigned char*>(matrix.data()), step, stride);
+  } else {
+    view.normals = float3_channel(matrix.data(), step, stride);
+  }
+  if (Rows::count(matrix) != view.size) {  // a view of nothing, and of more than nothing: bad_view everywhere
+    view.points = {};
+    view.size = 1;
+  }
+}
 
 }  // namespace detail
 
 /// View of float points: Matrix3Xf, MatrixX3f, row- or column-major, or a Map of them with any strides. Borrowed.
-template <class Matrix>
-[[nodiscard]] CloudView view_eigen(const Matrix& xyz) noexcept {
+///
+/// `channels`: a matrix of bytes r g b for colours, a matrix of floats for normals, or both, of either shape. bad_view
+/// if the numbers of points differ.
+template <class Matrix, class... Channels>
+[[nodiscard]] CloudView view_eigen(const Matrix& xyz, const Channels&... channels) noexcept {
   static_assert(std::is_same<typename Matrix::Scalar, float>::value, "view_eigen() supports float coordinates");
   using Points = detail::EigenPoints<Matrix>;
   CloudView view{};
@@ -5172,31 +5708,13 @@ template <class Matrix>
   view.height = 1;
   view.points = detail::float3_channel(xyz.data(), Points::component_step(xyz) * sizeof(float),
                                        Points::point_step(xyz) * sizeof(float));
-  return view;
-}
-
-/// The same with colours: a matrix of bytes r g b of either shape. bad_view if the numbers of points differ.
-template <class Matrix, class Colors>
-[[nodiscard]] CloudView view_eigen(const Matrix& xyz, const Colors& rgb) noexcept {
-  static_assert(sizeof(typename Colors::Scalar) == 1, "view_eigen() supports colours of one byte each");
-  using Points = detail::EigenPoints<Colors>;
-  CloudView view = view_eigen(xyz);
-  const auto* first = reinterpret_cast<const unsigned char*>(rgb.data());
-  view.colors = detail::color_channel(first, Points::component_step(rgb), Points::point_step(rgb));
-  if (Points::count(rgb) != view.size) {  // a view of nothing, and of more than nothing: bad_view everywhere
-    view.points = {};
-    view.size = 1;
-  }
+  (detail::add_channel(view, channels), ...);
   return view;
 }
 
 /// A matrix (not a map) that dies at the end of the statement cannot be viewed.
-template <class Matrix, class = detail::IfOwning<Matrix>>
-CloudView view_eigen(const Matrix&& xyz) = delete;
-template <class Matrix, class Colors, class = detail::IfOwning<Matrix>>
-CloudView view_eigen(const Matrix&& xyz, const Colors& rgb) = delete;
-template <class Matrix, class Colors, class = detail::IfOwning<Colors>>
-CloudView view_eigen(const Matrix& xyz, const Colors&& rgb) = delete;
+template <class... Matrices, class = std::enable_if_t<(detail::IsDyingMatrix<Matrices>::value || ...)>>
+CloudView view_eigen(Matrices&&... matrices) = delete;
 
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot

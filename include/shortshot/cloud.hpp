@@ -47,6 +47,11 @@ struct Point {
   float x, y, z;
 };
 
+/// A surface normal: a unit vector, or NaN in all three where a point has none.
+struct Normal {
+  float x, y, z;
+};
+
 /// An sRGB colour.
 struct Rgb {
   std::uint8_t r, g, b;
@@ -93,6 +98,14 @@ namespace detail {
   return view;
 }
 
+/// The same cloud with `cloud.size` normals x y z (floats), borrowed like the points. `stride_bytes` is the distance
+/// between normals.
+[[nodiscard]] inline CloudView with_normals(CloudView cloud, const Normal* normals,
+                                            std::size_t stride_bytes = sizeof(Normal)) noexcept {
+  cloud.normals = detail::float3_channel(normals == nullptr ? nullptr : &normals->x, sizeof(float), stride_bytes);
+  return cloud;
+}
+
 /// The same cloud as an image of `width * height` pixels, row by row, for OrganizedSearch.
 [[nodiscard]] inline CloudView organized(CloudView cloud, std::size_t width, std::size_t height) noexcept {
   cloud.width = width;
@@ -122,6 +135,12 @@ namespace detail {
 
 [[nodiscard]] inline Point point(const CloudView& cloud, std::size_t index) noexcept {
   return read(cloud.points, index);
+}
+
+/// The normal of point `index`; the cloud must have normals.
+[[nodiscard]] inline Normal normal(const CloudView& cloud, std::size_t index) noexcept {
+  const Point n = read(cloud.normals, index);
+  return {n.x, n.y, n.z};
 }
 
 [[nodiscard]] inline bool is_finite(const Point& p) noexcept {

@@ -57,12 +57,9 @@ template <class D, class Search>
 
 namespace detail {
 
-/// Search, with the larger of the two radii.
-template <class Search>
-[[nodiscard]] inline Status gather(const Search& search, const Point& center, const Support& support,
-                                   Neighborhood& n) noexcept {
-  const bool wide_frame = support.frame_radius.squared > support.radius.squared;
-  return search.gather(center, wide_frame ? support.frame_radius : support.radius, n);
+/// The larger of the two radii.
+[[nodiscard]] inline Radius gather_radius(const Support& support) noexcept {
+  return support.frame_radius.squared > support.radius.squared ? support.frame_radius : support.radius;
 }
 
 /// The source of a cloud's own normals.
@@ -108,7 +105,7 @@ template <class D, class Search, std::size_t MaxNeighbors, class Finish>
   if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
   if (status != Status::ok) return status;
   Neighborhood n = neighborhood_in(workspace);
-  status = gather(search, key.position, support, n);
+  status = search.gather(key.position, gather_radius(support), n);
   return status == Status::ok ? finish(n, rgb_colors<D>(cloud, key.color)) : status;
 }
 

@@ -53,8 +53,9 @@ struct IsExecutor<T, std::void_t<decltype(static_cast<std::size_t>(std::declval<
 template <class Threads>
 [[nodiscard]] decltype(auto) executor_of(Threads& threads, std::size_t blocks) {
   constexpr bool is_number = std::is_integral<Threads>::value;
-  static_assert(is_number || IsExecutor<Threads>::value,
-                "extract() supports a number of threads, or an executor with threads() and run(work)");
+  static_assert(
+      is_number || IsExecutor<Threads>::value,
+      "extract() and estimate_normals() support a number of threads, or an executor with threads() and run(work)");
   if constexpr (is_number) {
     const std::size_t wanted = threads > 0 ? static_cast<std::size_t>(threads) : 1;
     return StartedThreads(std::max<std::size_t>(1, std::min(wanted, blocks)));

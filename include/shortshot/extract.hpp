@@ -34,13 +34,8 @@ template <class D, class Color, class Search>
                                  const Support& support, GrowingWorkspace& workspace, Features<D, Color>& out,
                                  std::size_t row) {
   if (!is_finite(key.position)) return Status::invalid_keypoint;
-  Neighborhood n = workspace.neighborhood();
-  Status status = gather(search, key.position, support, n);
-  if (status == Status::too_many_neighbors && n.found <= max_neighbors) {
-    workspace.reserve(n.found);
-    n = workspace.neighborhood();
-    status = gather(search, key.position, support, n);
-  }
+  Neighborhood n;
+  const Status status = workspace.gather(search, key.position, gather_radius(support), n);
   out.neighbors[row] = n.found;
   if (status != Status::ok) return status;
   float* values = out.values.data() + row * static_cast<std::size_t>(D::size);

@@ -27,6 +27,17 @@ class GrowingWorkspace {
     return {p, p + n, p + 2 * n, p + 3 * n, index_.data(), static_cast<std::uint32_t>(n), 0, 0};
   }
 
+  /// A search's gather(); grows until the neighbours fit.
+  template <class Search>
+  [[nodiscard]] Status gather(const Search& search, const Point& center, Radius radius, Neighborhood& n) {
+    n = neighborhood();
+    const Status status = search.gather(center, radius, n);
+    if (status != Status::too_many_neighbors || n.found > max_neighbors) return status;
+    reserve(n.found);
+    n = neighborhood();
+    return search.gather(center, radius, n);
+  }
+
   /// Room for `neighbors`; half as much again where it has to grow, so that it seldom does.
   void reserve(std::size_t neighbors) {
     if (neighbors <= index_.size()) return;

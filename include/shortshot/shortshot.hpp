@@ -1,4 +1,5 @@
-// shortshot: short colour-shape descriptors (SSH, SCSH) of RGB-D point clouds on small CPUs.
+// shortshot: short colour-shape descriptors (SSH, SCSH) of RGB-D point clouds on small CPUs, and their parents (SHOT,
+// CSHOT, B-SHOT).
 //
 // The umbrella. On bare metal it is the kernel: no heap, no exceptions, no operating system. Where there is an
 // operating system it adds what allocates: extract() for many key points, sampling, a grid with memory of its own.
@@ -10,6 +11,8 @@
 #include "kernel.hpp"
 
 #if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
+#include "adapters/pcl.hpp"
+#include "estimate_normals.hpp"
 #include "extract.hpp"
 #include "sample.hpp"
 #include "search/grid_hosted.hpp"

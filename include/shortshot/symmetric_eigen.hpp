@@ -1,15 +1,14 @@
-// shortshot/symmetric_eigen.hpp: eigenvectors of a symmetric 3x3 matrix, in float, with the same bits everywhere.
+// shortshot/symmetric_eigen.hpp: eigenvectors of symmetric 3x3 matrices, in float, with the same bits everywhere.
 //
 // Cyclic Jacobi rotations: accurate to a few float epsilons whatever the spacing of the eigenvalues, no libm call but
-// the exactly rounded square root, 192 bytes of stack on a Cortex-M7. Eigen's solvers are as good on a PC, but the
-// direct one calls atan2, cos and sin (other bits with every libm) and both cost more flash than the rest of the frame.
+// the exactly rounded square root. Eigen's solvers are as good on a PC, but the direct one calls atan2, cos and sin
+// (other bits with every libm) and both cost more flash than the rest of the frame. Rotations take the same steps for
+// every matrix, so a register's lanes hold as many matrices, each with the bits that it would have alone.
 #pragma once
 
 #include <initializer_list>
 
 #include "config.hpp"
-#include "math.hpp"
-#include "rounded.hpp"
 #include "simd.hpp"
 
 namespace shortshot {
@@ -27,62 +26,73 @@ struct Eigen3 {
   float vectors[3][3];
 };
 
-/// Tangent of the angle, at most an eighth of a turn, by which the plane of two diagonal entries `gap` apart turns to
-/// make the entry `off` between them zero; 0 if that is not worth while: it moves no component by half its last bit.
-[[nodiscard]] inline float tangent(float gap, float off) noexcept {
-  const float wide = gap < 0.0f ? 0.0f - gap : gap;
-  const float high = off < 0.0f ? 0.0f - off : off;
-  if (high - 1e-12f <= rounded(wide * 7e-9f)) return 0.0f;
-  if (high * 8192.0f < wide) return off / gap;  // float knows no better; most rotations but the first few
-  const float root = simd::root(rounded(gap * gap) + rounded(4.0f * (off * off)));
-  return (off + off) / (gap < 0.0f ? gap - root : gap + root);
-}
+/// The same of one matrix in each lane.
+struct SymmetricLanes {
+  simd::F32 xx, xy, xz, yy, yz, zz;
+};
+struct EigenLanes {
+  simd::F32 values[3];
+  simd::F32 vectors[3][3];
+};
 
-/// One Jacobi rotation in the plane (p, q) that makes a[p][q] zero; the columns of v collect the rotations. Entries are
-/// at most 2. Returns whether it was worth while.
-inline bool rotate(float (&a)[3][3], float (&v)[3][3], int p, int q) noexcept {
-  const float t = tangent(a[q][q] - a[p][p], a[p][q]);
-  if (t == 0.0f) return false;
-  const float square = rounded(t * t) + 1.0f;
-  const float c = square == 1.0f ? 1.0f : 1.0f / simd::root(square);
-  const float s = t * c;
+/// One Jacobi rotation in the plane (p, q) that makes a[p][q] zero, in those lanes where that is worth while; the
+/// columns of v collect the rotations. Entries are at most 2. Returns whether it was worth while anywhere.
+inline bool rotate(simd::F32 (&a)[3][3], simd::F32 (&v)[3][3], int p, int q) noexcept {
+  using simd::all;
+  using simd::F32;
+  // The tangent of an angle of at most an eighth of a turn.
+  const F32 off = a[p][q];
+  const F32 gap = a[q][q] - a[p][p];
+  const F32 wide = simd::abs(gap);
+  const F32 high = simd::abs(off);
+  const simd::Mask turns = high - all(1e-12f) > wide * all(7e-9f);  // else no component moves by half its last bit
+  if (!any(turns)) return false;
+  const simd::Mask slight = all(8192.0f) * high < wide;  // float knows no better; most rotations but the first few
+  const F32 root = simd::sqrt(gap * gap + all(4.0f) * (off * off));
+  const F32 sum = gap + simd::negate(gap < all(0.0f), root);
+  const F32 t = keep(turns, select(slight, off, off + off) / select(slight, gap, sum));
+  const F32 c = all(1.0f) / simd::sqrt(t * t + all(1.0f));
+  const F32 s = t * c;
   const int r = 3 - p - q;  // the row that is not rotated
 
-  const float moved = rounded(t * a[p][q]);
+  const F32 moved = t * off;
   a[p][p] = a[p][p] - moved;
   a[q][q] = a[q][q] + moved;
-  a[p][q] = a[q][p] = 0.0f;
-  const float rp = a[r][p];
-  const float rq = a[r][q];
-  a[r][p] = a[p][r] = rounded(c * rp) - rounded(s * rq);
-  a[r][q] = a[q][r] = rounded(s * rp) + rounded(c * rq);
+  a[p][q] = a[q][p] = select(turns, all(0.0f), off);
+  const F32 rp = a[r][p];
+  const F32 rq = a[r][q];
+  a[r][p] = a[p][r] = c * rp - s * rq;
+  a[r][q] = a[q][r] = s * rp + c * rq;
   for (int k = 0; k < 3; ++k) {
-    const float vp = v[k][p];
-    const float vq = v[k][q];
-    v[k][p] = rounded(c * vp) - rounded(s * vq);
-    v[k][q] = rounded(s * vp) + rounded(c * vq);
+    const F32 vp = v[k][p];
+    const F32 vq = v[k][q];
+    v[k][p] = c * vp - s * vq;
+    v[k][q] = s * vp + c * vq;
   }
   return true;
 }
 
 /// The largest power of two not above the largest entry.
-[[nodiscard]] inline float scale_of(const Symmetric3& m) noexcept {
-  float largest = 1.17549435e-38f;
-  for (const float entry : {m.xx, m.xy, m.xz, m.yy, m.yz, m.zz}) {
-    const float size = entry < 0.0f ? 0.0f - entry : entry;
-    largest = size > largest ? size : largest;
+[[nodiscard]] inline simd::F32 scale_of(const SymmetricLanes& m) noexcept {
+  simd::F32 largest = simd::all(1.17549435e-38f);
+  for (const simd::F32* entry : {&m.xx, &m.xy, &m.xz, &m.yy, &m.yz, &m.zz}) {
+    largest = simd::max(simd::abs(*entry), largest);
   }
-  return math::power_of_two_below(largest);
+  return from_bits(bits_of(largest) & simd::all_int(0x7F800000));
 }
 
-/// Eigen-decomposition of m. Converges quadratically: six sweeps are twice what any float matrix was seen to need.
-[[nodiscard]] inline Eigen3 decompose(const Symmetric3& m) noexcept {
-  const float scale = scale_of(m);
-  const float unit = 1.0f / scale;
-  float a[3][3] = {{m.xx * unit, m.xy * unit, m.xz * unit},
-                   {m.xy * unit, m.yy * unit, m.yz * unit},
-                   {m.xz * unit, m.yz * unit, m.zz * unit}};
-  float v[3][3] = {{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+/// Eigen-decompositions. They converge quadratically: six sweeps are twice what any float matrix was seen to need.
+[[nodiscard]] inline EigenLanes decompose_lanes(const SymmetricLanes& m) noexcept {
+  using simd::all;
+  using simd::F32;
+  const F32 scale = scale_of(m);
+  const F32 unit = all(1.0f) / scale;
+  const F32 zero = all(0.0f);
+  const F32 one = all(1.0f);
+  F32 a[3][3] = {{m.xx * unit, m.xy * unit, m.xz * unit},
+                 {m.xy * unit, m.yy * unit, m.yz * unit},
+                 {m.xz * unit, m.yz * unit, m.zz * unit}};
+  F32 v[3][3] = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
   bool turned = true;
   for (int sweep = 0; sweep < 6 && turned; ++sweep) {
     turned = rotate(a, v, 0, 1);
@@ -90,24 +100,42 @@ inline bool rotate(float (&a)[3][3], float (&v)[3][3], int p, int q) noexcept {
     turned = rotate(a, v, 1, 2) || turned;
   }
 
-  int order[3] = {0, 1, 2};
   const auto sort_pair = [&](int i, int j) {
-    if (a[order[j]][order[j]] >= a[order[i]][order[i]]) return;
-    const int swapped = order[i];
-    order[i] = order[j];
-    order[j] = swapped;
+    const simd::Mask swap = a[j][j] < a[i][i];
+    const auto exchange = [&](F32& first, F32& second) {
+      const F32 before = first;
+      first = select(swap, second, first);
+      second = select(swap, before, second);
+    };
+    exchange(a[i][i], a[j][j]);
+    for (F32(&row)[3] : v) exchange(row[i], row[j]);
   };
   sort_pair(0, 1);
   sort_pair(1, 2);
   sort_pair(0, 1);
 
+  EigenLanes result;
+  for (int i = 0; i < 3; ++i) {
+    const F32 length = simd::sqrt(v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
+    result.values[i] = a[i][i] * scale;
+    for (int k = 0; k < 3; ++k) result.vectors[i][k] = v[k][i] / length;
+  }
+  return result;
+}
+
+/// Eigen-decomposition of one matrix.
+[[nodiscard]] inline Eigen3 decompose(const Symmetric3& m) noexcept {
+  using simd::all;
+  const EigenLanes lanes = decompose_lanes({all(m.xx), all(m.xy), all(m.xz), all(m.yy), all(m.yz), all(m.zz)});
+  const auto first = [](simd::F32 number) {
+    float values[simd::lanes];
+    simd::store(values, number);
+    return values[0];
+  };
   Eigen3 result;
   for (int i = 0; i < 3; ++i) {
-    const int column = order[i];
-    const auto square = [&](int k) { return rounded(v[k][column] * v[k][column]); };
-    const float length = simd::root(square(0) + square(1) + square(2));
-    result.values[i] = a[column][column] * scale;
-    for (int k = 0; k < 3; ++k) result.vectors[i][k] = v[k][column] / length;
+    result.values[i] = first(lanes.values[i]);
+    for (int k = 0; k < 3; ++k) result.vectors[i][k] = first(lanes.vectors[i][k]);
   }
   return result;
 }

@@ -36,6 +36,7 @@ function(extract name result)
 endfunction()
 
 extract(firmware firmware)
+extract(parents parents)
 extract(quick_start quick_start)
 
 string(REGEX REPLACE "[][;\\]" "x" lines "${quick_start}")  # what CMake's lists would interpret

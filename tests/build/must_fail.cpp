@@ -22,6 +22,7 @@ struct DoublePoint {
 constexpr std::array<FloatPoint, 1> kept_points{};
 static_assert(Grid<1, 4, 8>::cells == 32, "");
 static_assert(shortshot::ColorDistance<1>::bins == 1, "");
+static_assert(shortshot::Shot<Grid<2, 2, 8>, 1>::size == 64, "");
 static_assert(sizeof(Workspace<5>) == 100, "");
 static_assert(sizeof(shortshot::LogRadius<1, 2>) == 1, "");
 static_assert(sizeof(shortshot::StaticGrid<1, 1>) > 0, "");
@@ -71,4 +72,16 @@ shortshot::Status no_executor(const shortshot::CloudView& cloud, shortshot::Feat
 }
 #elif CASE == 17
 shortshot::Features<shortshot::Scsh336, shortshot::Rgb> features;
+#elif CASE == 18
+static_assert(shortshot::Shot<Grid<2, 2, 8>, 0>::size == 32, "");
+#elif CASE == 19
+template <class Cells>
+using CellsPart = shortshot::Part<Grid<2, 2, 8>, shortshot::NormalCosine<10>, shortshot::LinearRadius, Cells>;
+using TwoConventions =
+    shortshot::Descriptor<shortshot::ShotVoting, CellsPart<shortshot::ShotCells>, CellsPart<shortshot::PublishedCells>>;
+static_assert(TwoConventions::size > 0, "");
+#elif CASE == 20
+shortshot::Status no_normals(const shortshot::Neighborhood& n, float* out) {
+  return shortshot::describe<shortshot::Shot352>(n, shortshot::NoColors{}, shortshot::NoNormals{}, {}, 0.1f, out);
+}
 #endif

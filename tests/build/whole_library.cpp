@@ -14,6 +14,21 @@ struct ColoredPoint {
   unsigned char r, g, b;
 };
 
+struct PointNormal {
+  float normal_x, normal_y, normal_z;
+};
+
+template <class D>
+struct Signatures {  // as pcl::PointCloud<pcl::SHOT352>
+  struct Signature {
+    float descriptor[D::size];
+    float rf[9];
+  };
+  std::vector<Signature> points;
+  unsigned width, height;
+  bool is_dense;
+};
+
 struct Field {
   std::string name;
   unsigned offset;
@@ -43,7 +58,20 @@ std::size_t describe(const shortshot::CloudView& cloud, const Search& search) {
   if (shortshot::extract<D>(cloud, search, keypoints, 0.1f, features, 2) != shortshot::Status::ok) return 0;
   shortshot::Features<D, shortshot::PackedLab> packed;
   if (shortshot::extract<D>(cloud, search, keypoints, 0.1f, packed, Executor{}) != shortshot::Status::ok) return 0;
-  return features.size() + packed.size();
+  Signatures<D> signatures{};
+  shortshot::to_pcl(features, signatures);
+  return signatures.points.size() + packed.size();
+}
+
+template <class D, class Search>
+std::size_t describe_with_normals(const shortshot::CloudView& cloud, const Search& search) {
+  std::vector<shortshot::Normal> normals;
+  if (shortshot::estimate_normals(cloud, search, 0.1f, normals) != shortshot::Status::ok) return 0;
+  std::vector<float> row(D::size);
+  shortshot::BinaryDescriptor<D> bits;
+  shortshot::binarize(row.data(), bits);
+  const auto distance = static_cast<std::size_t>(shortshot::hamming_distance(bits, bits));
+  return describe<D>(shortshot::with_normals(cloud, normals.data()), search) + distance;
 }
 
 std::size_t describe_all(const shortshot::CloudView& cloud) {
@@ -51,6 +79,8 @@ std::size_t describe_all(const shortshot::CloudView& cloud) {
   shortshot::OrganizedSearch image;
   std::size_t rows = describe<shortshot::Ssh32>(cloud, grid);
   rows += describe<shortshot::Scsh336>(cloud, shortshot::BruteSearch{cloud});
+  rows += describe_with_normals<shortshot::Shot352>(cloud, grid);
+  rows += describe_with_normals<shortshot::PclCshot1344>(cloud, grid);
   if (image.build(cloud) == shortshot::Status::ok) rows += describe<shortshot::Ssh96>(cloud, image);
 #if defined(__cpp_exceptions)
   rows += describe<shortshot::Scsh696>(cloud, shortshot::NanoflannSearch(cloud));
@@ -62,7 +92,8 @@ std::size_t describe_all(const shortshot::CloudView& cloud) {
 
 int main() {
   const std::vector<ColoredPoint> points(10);
-  std::size_t rows = describe_all(shortshot::view_of(points));
+  const std::vector<PointNormal> normals(10);
+  std::size_t rows = describe_all(shortshot::view_of(points)) + describe_all(shortshot::view_of(points, normals));
   shortshot::CloudView view{};
   const Message message{};
   if (shortshot::view_point_cloud2(message, view) == shortshot::Status::ok) rows += describe_all(view);

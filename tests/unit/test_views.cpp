@@ -82,7 +82,7 @@ std::vector<P> sample_as() {
     points[i].x = p.x;
     points[i].y = p.y;
     points[i].z = p.z;
-    if constexpr (!std::is_same<P, Colorless>::value) {
+    if constexpr (std::is_same<P, Padded>::value || std::is_same<P, PclPoint>::value) {
       const ss::Rgb c = cloud.color_at(i);
       points[i].r = c.r;
       points[i].g = c.g;
@@ -92,15 +92,71 @@ std::vector<P> sample_as() {
   return points;
 }
 
-template <class T, class = void>
-struct CanView : std::false_type {};
-template <class T>
-struct CanView<T, std::void_t<decltype(ss::view_of(std::declval<T>()))>> : std::true_type {};
+struct alignas(16) PclNormal {  // as pcl::Normal: 32 bytes
+  union {
+    float data_n[4];
+    struct {
+      float normal_x, normal_y, normal_z;
+    };
+  };
+  float curvature;
+};
+static_assert(sizeof(PclNormal) == 32, "the layout of PCL");
+
+struct PclNormals {
+  std::vector<PclNormal> points;
+  std::uint32_t width = 0;
+  std::uint32_t height = 0;
+};
+
+struct PointNormal {  // in no particular order
+  float normal_z, x, y, z, normal_x, normal_y;
+};
+
+struct DoubleNormal {
+  float x, y, z;
+  double normal_x, normal_y, normal_z;
+};
+
+ss::Point normal_at(std::size_t i) { return {static_cast<float>(i), 0.5f, -static_cast<float>(i)}; }
+
+template <class N>
+void set_normals(std::vector<N>& structs) {
+  for (std::size_t i = 0; i < structs.size(); ++i) {
+    structs[i].normal_x = normal_at(i).x;
+    structs[i].normal_y = normal_at(i).y;
+    structs[i].normal_z = normal_at(i).z;
+  }
+}
+
+void check_normals(const ss::CloudView& view) {
+  REQUIRE(ss::check(view) == Status::ok);
+  REQUIRE(ss::has_normals(view));
+  REQUIRE(view.size == count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const ss::Point n = ss::read(view.normals, i);
+    REQUIRE((n.x == normal_at(i).x && n.y == normal_at(i).y && n.z == normal_at(i).z));
+  }
+}
+
+template <class Arguments, class = void>
+struct CanViewAll : std::false_type {};
+template <class... Arguments>
+struct CanViewAll<void(Arguments...), std::void_t<decltype(ss::view_of(std::declval<Arguments>()...))>>
+    : std::true_type {};
+template <class... Arguments>
+using CanView = CanViewAll<void(Arguments...)>;
 
 using Points = std::vector<Padded>;
 static_assert(CanView<Points&>::value && CanView<const Points&>::value, "containers that live on can be viewed");
 static_assert(!CanView<Points>::value && !CanView<const Points>::value, "containers that die cannot");
 static_assert(CanView<PclCloud&>::value && !CanView<PclCloud>::value, "neither can clouds");
+static_assert(CanView<PclCloud&, const PclNormals&>::value && CanView<Points&, PclNormals&>::value,
+              "with normals, too");
+static_assert(!CanView<PclCloud, PclNormals&>::value && !CanView<PclCloud&, PclNormals>::value &&
+                  !CanView<const PclCloud, const PclNormals>::value,
+              "and neither can normals");
+static_assert(CanView<Padded*, int>::value, "a count of any type is no container");
 
 }  // namespace
 
@@ -160,6 +216,42 @@ TEST_CASE("views: clouds shaped as PCL's, organised or not") {
   cloud.height = 17;  // no image: a plain list of points
   check_reads_as_sample(ss::view_of(cloud));
   CHECK(ss::view_of(cloud).height == 1);
+}
+
+TEST_CASE("views: normals among the members of a point, of type float") {
+  std::vector<PointNormal> points = sample_as<PointNormal>();
+  set_normals(points);
+  check_normals(ss::view_of(points));
+  check_reads_as_sample(ss::view_of(points), false);
+  const std::vector<DoubleNormal> doubles = sample_as<DoubleNormal>();
+  CHECK_FALSE(ss::has_normals(ss::view_of(doubles)));
+  CHECK_FALSE(ss::has_normals(ss::view_of(sample_as<Padded>().data(), count)));
+}
+
+TEST_CASE("views: normals in a container of their own, shaped as PCL's cloud or not") {
+  PclCloud cloud{sample_as<PclPoint>(), 25, 16};
+  PclNormals normals{std::vector<PclNormal>(count), count, 1};  // an image's normals may be listed in one row
+  set_normals(normals.points);
+  check_normals(ss::view_of(cloud, normals));
+  check_reads_as_sample(ss::view_of(cloud, normals));
+  CHECK(ss::view_of(cloud, normals).height == 16);
+  check_normals(ss::view_of(cloud, normals.points));
+  std::vector<PointNormal> points = sample_as<PointNormal>();  // whose own normals are all zero
+  check_normals(ss::view_of(points, normals));
+}
+
+TEST_CASE("views: normals for another number of points are refused") {
+  const Points points = sample_as<Padded>(), one(1), none;
+  const auto refused = [](const Points& p, std::size_t normals) {
+    const std::vector<PclNormal> n(normals);
+    return ss::check(ss::view_of(p, n));
+  };
+  CHECK(refused(points, count) == Status::ok);
+  CHECK(refused(points, count - 1) == Status::bad_view);
+  CHECK(refused(points, 0) == Status::bad_view);
+  CHECK(refused(one, 2) == Status::bad_view);
+  CHECK(refused(none, 3) == Status::bad_view);
+  CHECK(refused(none, 0) == Status::empty_cloud);
 }
 
 TEST_CASE("views: empty containers are empty clouds") {

@@ -45,10 +45,13 @@ ColumnColors sample_colors() {
   return Eigen::Map<const ColumnColors>(cloud.rgb.data(), 3, count);
 }
 
-template <class T, class = void>
-struct CanView : std::false_type {};
-template <class T>
-struct CanView<T, std::void_t<decltype(ss::view_eigen(std::declval<T>()))>> : std::true_type {};
+template <class Arguments, class = void>
+struct CanViewAll : std::false_type {};
+template <class... Arguments>
+struct CanViewAll<void(Arguments...), std::void_t<decltype(ss::view_eigen(std::declval<Arguments>()...))>>
+    : std::true_type {};
+template <class... Arguments>
+using CanView = CanViewAll<void(Arguments...)>;
 
 }  // namespace
 
@@ -104,9 +107,38 @@ TEST_CASE("eigen views: colours for another number of points are refused") {
   CHECK(ss::check(ss::view_eigen(points, too_few)) != Status::ok);
 }
 
+TEST_CASE("eigen views: a matrix of floats beside the points holds normals, with colours or without") {
+  const RowPoints rows = sample_points().transpose();
+  const ColumnPoints normals = -sample_points();
+  const RowPointsByRow normals_by_row = normals.transpose();
+  const ColumnColors colors = sample_colors();
+  const auto check_normals = [&](const ss::CloudView& view, bool with_colors) {
+    check_reads_as_sample(view, with_colors);
+    REQUIRE(ss::has_normals(view));
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const ss::Point n = ss::read(view.normals, static_cast<std::size_t>(i));
+      REQUIRE((n.x == normals(0, i) && n.y == normals(1, i) && n.z == normals(2, i)));
+    }
+  };
+  check_normals(ss::view_eigen(rows, normals), false);
+  check_normals(ss::view_eigen(rows, normals_by_row), false);
+  check_normals(ss::view_eigen(rows, colors, normals), true);
+  check_normals(ss::view_eigen(rows, normals, colors), true);
+  CHECK_FALSE(ss::has_normals(ss::view_eigen(rows, colors)));
+  const ColumnPoints too_few = normals.leftCols(1), none(3, 0);
+  CHECK(ss::check(ss::view_eigen(rows, too_few)) == Status::bad_view);
+  CHECK(ss::check(ss::view_eigen(rows, colors, none)) == Status::bad_view);
+  CHECK(ss::check(ss::view_eigen(rows, none, too_few)) == Status::bad_view);  // not even as one point with one normal
+}
+
 TEST_CASE("eigen views: a matrix that dies at the end of the statement cannot be viewed, a map can") {
   CHECK(CanView<ColumnPoints&>::value);
   CHECK(CanView<const ColumnPoints&>::value);
   CHECK(CanView<Eigen::Map<const ColumnPoints>>::value);
   CHECK_FALSE(CanView<ColumnPoints>::value);
+  CHECK_FALSE(CanView<const ColumnPoints>::value);
+  CHECK(CanView<ColumnPoints&, const ColumnColors&, Eigen::Map<const ColumnPoints>>::value);
+  CHECK_FALSE(CanView<ColumnPoints&, ColumnColors>::value);
+  CHECK_FALSE(CanView<ColumnPoints&, ColumnColors&, ColumnPoints>::value);
+  CHECK_FALSE(CanView<ColumnPoints, ColumnColors>::value);
 }

@@ -133,6 +133,31 @@ TEST_CASE("PointCloud2: colours outside the point are not read") {
   check_reads_as_sample(m, false);
 }
 
+TEST_CASE("PointCloud2: normals are three fields of their own, or none") {
+  Message m = message();
+  m.fields.insert(
+      m.fields.end(),
+      {{"normal_x", 1, type_float32, 1}, {"normal_z", 7, type_float32, 1}, {"normal_y", 19, type_float32, 1}});
+  ss::CloudView view{};
+  REQUIRE(ss::view_point_cloud2(m, view) == Status::ok);
+  REQUIRE(ss::has_normals(view));
+  for (std::size_t i = 0; i < count; ++i) {
+    const ss::Point n = ss::read(view.normals, i);
+    const ss::Point p = sample().at(i);
+    REQUIRE((n.x == p.y && n.y == p.z && n.z == p.x));
+  }
+  check_reads_as_sample(m);
+  for (const std::size_t field : {5u, 6u, 7u}) {
+    for (const Field& broken : {Field{"normal", 1, type_float32, 1}, Field{m.fields[field].name, 1, type_float64, 1},
+                                Field{m.fields[field].name, 20, type_float32, 1}}) {
+      Message other = m;
+      other.fields[field] = broken;
+      REQUIRE(ss::view_point_cloud2(other, view) == Status::ok);
+      CHECK_FALSE(ss::has_normals(view));
+    }
+  }
+}
+
 TEST_CASE("PointCloud2: a step of zero and steps shorter than the fields are refused") {
   for (const std::uint32_t step : {0u, 3u, 22u}) {
     Message m = message();

@@ -34,15 +34,42 @@ struct EigenPoints {
   }
 };
 
-/// Matrices own their memory; maps and blocks borrow it.
-template <class Matrix>
-using IfOwning = std::enable_if_t<std::is_base_of<Eigen::PlainObjectBase<Matrix>, Matrix>::value>;
+/// Matrices own their memory; maps and blocks borrow it. Of arguments that a function takes as Argument&&: is this one
+/// a matrix that dies at the end of the statement?
+template <class Argument>
+struct IsDyingMatrix : std::is_base_of<Eigen::PlainObjectBase<std::remove_cv_t<Argument>>, std::remove_cv_t<Argument>> {
+};
+template <class Argument>
+struct IsDyingMatrix<Argument&> : std::false_type {};
+
+/// Bytes are colours, floats are normals.
+template <class Channel>
+void add_channel(CloudView& view, const Channel& matrix) noexcept {
+  using Scalar = typename Channel::Scalar;
+  static_assert(sizeof(Scalar) == 1 || std::is_same<Scalar, float>::value,
+                "view_eigen() supports colours of one byte each, and normals of floats");
+  using Rows = EigenPoints<Channel>;
+  const std::size_t step = Rows::component_step(matrix) * sizeof(Scalar);
+  const std::size_t stride = Rows::point_step(matrix) * sizeof(Scalar);
+  if constexpr (sizeof(Scalar) == 1) {
+    view.colors = color_channel(reinterpret_cast<const unsigned char*>(matrix.data()), step, stride);
+  } else {
+    view.normals = float3_channel(matrix.data(), step, stride);
+  }
+  if (Rows::count(matrix) != view.size) {  // a view of nothing, and of more than nothing: bad_view everywhere
+    view.points = {};
+    view.size = 1;
+  }
+}
 
 }  // namespace detail
 
 /// View of float points: Matrix3Xf, MatrixX3f, row- or column-major, or a Map of them with any strides. Borrowed.
-template <class Matrix>
-[[nodiscard]] CloudView view_eigen(const Matrix& xyz) noexcept {
+///
+/// `channels`: a matrix of bytes r g b for colours, a matrix of floats for normals, or both, of either shape. bad_view
+/// if the numbers of points differ.
+template <class Matrix, class... Channels>
+[[nodiscard]] CloudView view_eigen(const Matrix& xyz, const Channels&... channels) noexcept {
   static_assert(std::is_same<typename Matrix::Scalar, float>::value, "view_eigen() supports float coordinates");
   using Points = detail::EigenPoints<Matrix>;
   CloudView view{};
@@ -51,31 +78,13 @@ template <class Matrix>
   view.height = 1;
   view.points = detail::float3_channel(xyz.data(), Points::component_step(xyz) * sizeof(float),
                                        Points::point_step(xyz) * sizeof(float));
-  return view;
-}
-
-/// The same with colours: a matrix of bytes r g b of either shape. bad_view if the numbers of points differ.
-template <class Matrix, class Colors>
-[[nodiscard]] CloudView view_eigen(const Matrix& xyz, const Colors& rgb) noexcept {
-  static_assert(sizeof(typename Colors::Scalar) == 1, "view_eigen() supports colours of one byte each");
-  using Points = detail::EigenPoints<Colors>;
-  CloudView view = view_eigen(xyz);
-  const auto* first = reinterpret_cast<const unsigned char*>(rgb.data());
-  view.colors = detail::color_channel(first, Points::component_step(rgb), Points::point_step(rgb));
-  if (Points::count(rgb) != view.size) {  // a view of nothing, and of more than nothing: bad_view everywhere
-    view.points = {};
-    view.size = 1;
-  }
+  (detail::add_channel(view, channels), ...);
   return view;
 }
 
 /// A matrix (not a map) that dies at the end of the statement cannot be viewed.
-template <class Matrix, class = detail::IfOwning<Matrix>>
-CloudView view_eigen(const Matrix&& xyz) = delete;
-template <class Matrix, class Colors, class = detail::IfOwning<Matrix>>
-CloudView view_eigen(const Matrix&& xyz, const Colors& rgb) = delete;
-template <class Matrix, class Colors, class = detail::IfOwning<Colors>>
-CloudView view_eigen(const Matrix& xyz, const Colors&& rgb) = delete;
+template <class... Matrices, class = std::enable_if_t<(detail::IsDyingMatrix<Matrices>::value || ...)>>
+CloudView view_eigen(Matrices&&... matrices) = delete;
 
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot

@@ -46,7 +46,8 @@ template <class Message>
 
 /// View of a message with members data (data(), size()), fields (name, offset, datatype), point_step, row_step, width,
 /// height and is_bigendian. Fields x, y, z must be FLOAT32; colour is a field `rgb` or `rgba`, a FLOAT32 or UINT32 with
-/// 0xAARRGGBB packed into it. The view borrows the message's bytes.
+/// 0xAARRGGBB packed into it; normals are FLOAT32 fields normal_x, normal_y, normal_z. The view borrows the message's
+/// bytes.
 ///
 /// Statuses: empty_cloud (no point); bad_view (and an empty view): no x, y or z of that type, a field outside
 /// point_step, data shorter than width * height points, padded rows, or the other byte order. No allocation.
@@ -80,6 +81,12 @@ template <class Message>
     const unsigned char* packed = data + color;
     const bool little = detail::is_little_endian();
     view.colors = {packed + (little ? 2 : 1), packed + (little ? 1 : 2), packed + (little ? 0 : 3), step};
+  }
+  const std::int64_t normal_x = detail::offset_of(message, "normal_x", false);
+  const std::int64_t normal_y = detail::offset_of(message, "normal_y", false);
+  const std::int64_t normal_z = detail::offset_of(message, "normal_z", false);
+  if (normal_x >= 0 && normal_y >= 0 && normal_z >= 0) {
+    view.normals = {data + normal_x, data + normal_y, data + normal_z, step};
   }
   return Status::ok;
 }
