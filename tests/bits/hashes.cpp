@@ -49,6 +49,7 @@ Workspace<16384> workspace;
 template <class D>
 void print_descriptors(const Input& input, const GridSearch& search, const char* array) {
   if (D::needs_colors && !has_colors(input.cloud)) return;
+  if (D::needs_normals && !has_normals(input.cloud)) return;
   Hash hash;
   std::vector<float> values(D::size);
   const auto add = [&](Status status) {
@@ -65,8 +66,8 @@ void print_descriptors(const Input& input, const GridSearch& search, const char*
   hash.print(input.name, array);
 }
 
-void print_frames(const Input& input, const GridSearch& search) {
-  Hash hash;
+void print_frames_and_normals(const Input& input, const GridSearch& search) {
+  Hash hash, normals;
   for (const std::uint32_t index : input.keypoints) {
     Neighborhood n = neighborhood_in(workspace);
     Frame frame{};
@@ -75,8 +76,25 @@ void print_frames(const Input& input, const GridSearch& search) {
     hash.add(statuses, 2);
     hash.add(&n.found, 1);
     hash.add(&frame, 1);
+    Normal normal{};
+    const Status status = estimate_normal(n, input.radius, nullptr, normal);
+    normals.add(&status, 1);
+    normals.add(&normal, 1);
   }
   hash.print(input.name, "frames");
+  normals.print(input.name, "keypoint_normals");
+}
+
+/// Of every point, seen from the origin.
+std::vector<Normal> print_normals(const std::string& name, const CloudView& cloud, const GridSearch& search,
+                                  Radius radius) {
+  std::vector<Normal> normals;
+  const Status status = estimate_normals(cloud, search, radius, normals);
+  Hash hash;
+  hash.add(&status, 1);
+  hash.add(normals.data(), normals.size());
+  hash.print(name, "normals");
+  return normals;
 }
 
 template <class Rule>
@@ -91,10 +109,11 @@ void print_colors(const Input& input, const char* array) {
 
 void print_all(const Input& input) {
   print_colors<PublishedLab>(input, "lab_published");
+  print_colors<CshotLab>(input, "lab_cshot");
   print_colors<PclLab>(input, "lab_pcl");
   if (input.keypoints.empty()) return;
   const GridSearch search(input.cloud, input.radius.value);
-  print_frames(input, search);
+  print_frames_and_normals(input, search);
   print_descriptors<Ssh32>(input, search, "ssh32");
   print_descriptors<Ssh96>(input, search, "ssh96");
   print_descriptors<Scsh336>(input, search, "scsh336");
@@ -103,6 +122,11 @@ void print_all(const Input& input) {
   print_descriptors<Scsh<Shape, Color, 15, PublishedVoting, LinearRadius, PclLab>>(input, search, "scsh336_pcl");
   print_descriptors<Ssh<Shape, MultilinearVoting, LogRadius<>>>(input, search, "ssh96_multilinear_log");
   print_descriptors<Scsh<Shape, Color, 15, MultilinearVoting, LogRadius<>>>(input, search, "scsh336_multilinear_log");
+  print_descriptors<Shot352>(input, search, "shot352");
+  print_descriptors<Cshot1344>(input, search, "cshot1344");
+  print_descriptors<PclShot352>(input, search, "shot352_pcl");
+  print_descriptors<PclCshot1344>(input, search, "cshot1344_pcl");
+  print_descriptors<Cshot<Shape, 7, 12>>(input, search, "cshot_odd");
 }
 
 void print_scene() {
@@ -116,6 +140,9 @@ void print_scene() {
   keypoints.add(&status, 1);
   keypoints.add(input.keypoints.data(), input.keypoints.size());
   keypoints.print(input.name, "keypoints");
+  const GridSearch search(input.cloud, 0.03f);
+  const std::vector<Normal> normals = print_normals(input.name, input.cloud, search, 0.03f);
+  input.cloud = with_normals(input.cloud, normals.data());
   print_all(input);
 }
 

@@ -6,7 +6,9 @@
 struct IsaProbe {
   shortshot::Status status;
   const char* message;
-  float descriptor[shortshot::Scsh336::size];
+  float scsh[shortshot::Scsh336::size];
+  float cshot[shortshot::Cshot1344::size];
+  unsigned char bits[shortshot::BinaryDescriptor<shortshot::Cshot1344>::size_bytes];
 };
 
 IsaProbe describe_sse2();

@@ -8,7 +8,9 @@ namespace {
 
 bool same(const char* name, const IsaProbe& probe, const IsaProbe& reference) {
   const bool equal = probe.status == shortshot::Status::ok && probe.status == reference.status &&
-                     std::memcmp(probe.descriptor, reference.descriptor, sizeof probe.descriptor) == 0;
+                     std::memcmp(probe.scsh, reference.scsh, sizeof probe.scsh) == 0 &&
+                     std::memcmp(probe.cshot, reference.cshot, sizeof probe.cshot) == 0 &&
+                     std::memcmp(probe.bits, reference.bits, sizeof probe.bits) == 0;
   std::printf("%s: %s, %s\n", name, probe.message, equal ? "same bits" : "DIFFERENT");
   return equal;
 }

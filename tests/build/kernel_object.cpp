@@ -10,8 +10,11 @@ constexpr std::size_t max_neighbors = 128;
 shortshot::Workspace<max_neighbors> workspace;
 shortshot::StaticGrid<max_points, 1024> grid;
 shortshot::OrganizedSearch image;
-float descriptor[shortshot::Scsh696::size];
+float descriptor[shortshot::Cshot1344::size];
 shortshot::PackedLab colors[max_points];
+shortshot::Normal normals[max_points];
+shortshot::BinaryDescriptor<shortshot::Shot352> bits, last_bits;
+volatile int bits_apart;
 
 using Multilinear = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::MultilinearVoting>;
 using Hard = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::HardVoting, shortshot::LogRadius<>>;
@@ -37,6 +40,28 @@ shortshot::Status describe_packed(const shortshot::CloudView& cloud, std::size_t
   return shortshot::describe<shortshot::Scsh336>(n, source, frame, radius, descriptor);
 }
 
+/// SHOT, CSHOT and B-SHOT, with normals of this cloud's own.
+shortshot::Status describe_with_normals(const shortshot::CloudView& points, std::size_t index, float radius) {
+  using shortshot::Status;
+  for (std::size_t i = 0; i < points.size; ++i) {
+    shortshot::Neighborhood n = shortshot::neighborhood_in(workspace);
+    const shortshot::Point p = shortshot::point(points, i);
+    const float towards_camera[3] = {-p.x, -p.y, -p.z};
+    Status status = grid.gather(p, radius, n);
+    if (status == Status::ok) status = shortshot::estimate_normal(n, radius, towards_camera, normals[i]);
+    if (status != Status::ok) return status;
+  }
+  const shortshot::CloudView cloud = shortshot::with_normals(points, normals);
+  Status status = describe<shortshot::PclShot352>(cloud, grid, index, radius);
+  if (status == Status::ok) status = describe<shortshot::PclCshot1344>(cloud, grid, index, radius);
+  if (status == Status::ok) status = describe<shortshot::Cshot1344>(cloud, grid, index, radius);
+  if (status == Status::ok) status = describe<shortshot::Shot352>(cloud, grid, index, radius);
+  if (status == Status::ok) shortshot::binarize(descriptor, bits);
+  if (status == Status::ok) bits_apart = shortshot::hamming_distance(bits, last_bits);
+  last_bits = bits;
+  return status;
+}
+
 }  // namespace
 
 extern "C" const float* describe_patch(const float* xyz, const unsigned char* rgb, std::size_t count, std::size_t width,
@@ -47,6 +72,7 @@ extern "C" const float* describe_patch(const float* xyz, const unsigned char* rg
   if (status == Status::ok) status = describe<shortshot::Ssh32>(cloud, grid, index, radius);
   if (status == Status::ok) status = describe<shortshot::Scsh336>(cloud, grid, index, radius);
   if (status == Status::ok) status = describe_packed(cloud, index, radius);
+  if (status == Status::ok) status = describe_with_normals(cloud, index, radius);
   if (status == Status::ok) status = describe<shortshot::Scsh696>(cloud, shortshot::BruteSearch{cloud}, index, radius);
   if (status == Status::ok) status = image.build(shortshot::organized(cloud, width, count / width));
   if (status == Status::ok) status = describe<Multilinear>(cloud, image, index, radius);

@@ -40,9 +40,12 @@ CloudResult result_of(const std::string& cloud, double peer_us) {
   peer.against = {"SCSH-336"};
   result.contenders.push_back(measured(peer, peer_us, 1000.0, 30'000'000));
   Contender other{"PCL SHOT", "SHOT-352", {}, "FLANN"};
-  other.against = {"SSH-32"};
+  other.against = {"SSH-32", "SHOT-352"};
   result.contenders.push_back(measured(other, 300.0, 900.0, 30'000'000));
-  result.steps = {{"naive: tree", {30.0, 1, 1}}, {"O2: grid", {2.0, 1, 1}}};
+  result.contenders.push_back(measured({"shortshot", "SHOT-352", "O2", "grid"}, 12.5, 40.0, 9'000'000));
+  result.steps = {{"naive: tree", {30.0, 1, 1}},  {"O2: grid", {2.0, 1, 1}},
+                  {"O2: normals", {10.0, 1, 1}},  {"PCL: tree and normals within radius", {70.0, 1, 1}},
+                  {"PCL: normals", {50.0, 1, 1}}, {"PCL: unsorted tree", {5.0, 1, 1}}};
   result.oracle_difference = {{"O2", 2e-6}};
   return result;
 }
@@ -94,12 +97,13 @@ TEST_CASE("peers: the task is the cloud's measured points and the same key point
 TEST_CASE("peers: a comparison is with the peers of the same descriptor, and JSON has its keys") {
   const CloudResult result = result_of("a.pcd", 260.0);
   const std::vector<Comparison> comparisons = compare(result);
-  REQUIRE(comparisons.size() == 1);
+  REQUIRE(comparisons.size() == 2);
   CHECK(comparisons[0].ratio_per_keypoint == doctest::Approx(26.0));
   CHECK(comparisons[0].ratio_frame == doctest::Approx(50.0));
+  CHECK(comparisons[1].ratio_per_keypoint == doctest::Approx(24.0));
 
   const auto json = to_json(result);
-  REQUIRE(json.size() == 1);
+  REQUIRE(json.size() == 2);
   CHECK(json[0]["cloud"] == "a.pcd");
   CHECK(json[0]["descriptor"] == "SCSH-336");
   CHECK(json[0]["peer"] == "PCL SHOTColor");
@@ -115,7 +119,7 @@ TEST_CASE("peers: a comparison is with the peers of the same descriptor, and JSO
 TEST_CASE("peers: a goal is judged by its worst cloud, and one that was not measured is not judged") {
   const std::vector<CloudResult> good{result_of("a.pcd", 260.0), result_of("b.pcd", 251.0)};
   const std::vector<CloudResult> mixed{result_of("a.pcd", 260.0), result_of("b.pcd", 249.0)};
-  REQUIRE(goals().size() == 11);
+  REQUIRE(goals().size() == 15);
   const Goal& ratio = goals()[0];
   REQUIRE(worst_of(ratio, 0, good));
   CHECK(worst_of(ratio, 0, good)->met);
@@ -130,9 +134,14 @@ TEST_CASE("peers: a goal is judged by its worst cloud, and one that was not meas
   CHECK(worst_of(goal_named("extra memory"), 0, good)->met);
   CHECK_FALSE(worst_of(goal_named("oracle"), 0, good)->met);
   CHECK_FALSE(worst_of(goal_named("2 threads"), 0, good));
+  CHECK(worst_of(goal_named("SHOT-352 per key point, PCL / ours"), 0, good)->value == doctest::Approx(24.0));
+  CHECK_FALSE(worst_of(goal_named("CSHOT-1344"), 0, good));
+  CHECK(worst_of(goal_named("normals of all points"), 0, good)->value == doctest::Approx(7.0));
+  CHECK_FALSE(worst_of(goal_named("normals of all points"), 0, good)->met);
+  CHECK(worst_of(goal_named("k = 10"), 0, good)->value == doctest::Approx(5.5));
 
   const auto json = goals_to_json(mixed);
-  REQUIRE(json.size() == 22);
+  REQUIRE(json.size() == 30);
   CHECK(json[0]["met"] == false);
   CHECK(json[0]["worst_cloud"] == "b.pcd");
   CHECK(json[0]["measured"]["a.pcd"].get<double>() == doctest::Approx(26.0));

@@ -51,6 +51,7 @@ class Random {
 struct TestCloud {
   std::vector<float> xyz;
   std::vector<std::uint8_t> rgb;
+  std::vector<ss::Normal> normals;  // none, or one per point
 
   [[nodiscard]] std::size_t size() const { return xyz.size() / 3; }
   void add(float x, float y, float z, ss::Rgb color = {128, 64, 32}) {
@@ -60,7 +61,10 @@ struct TestCloud {
   void add(const ss::Point& p, ss::Rgb color = {128, 64, 32}) { add(p.x, p.y, p.z, color); }
   [[nodiscard]] ss::Point at(std::size_t i) const { return {xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]}; }
   [[nodiscard]] ss::Rgb color_at(std::size_t i) const { return {rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]}; }
-  [[nodiscard]] ss::CloudView view() const { return ss::view_xyz_rgb(xyz.data(), rgb.data(), size()); }
+  [[nodiscard]] ss::CloudView view() const {
+    const ss::CloudView points = ss::view_xyz_rgb(xyz.data(), rgb.data(), size());
+    return normals.empty() ? points : ss::with_normals(points, normals.data());
+  }
 };
 
 /// A curved patch, 20 cm wide and a metre away, with a chequered, speckled texture.
@@ -77,6 +81,40 @@ inline TestCloud curved_surface(std::uint32_t seed, std::size_t points) {
     const auto base = static_cast<std::uint8_t>(dark ? 20 : 150);
     cloud.add(x, y, z,
               {static_cast<std::uint8_t>(base + speckle), base, static_cast<std::uint8_t>(200 - base + speckle)});
+  }
+  return cloud;
+}
+
+inline constexpr ss::Normal no_normal{not_a_number, not_a_number, not_a_number};
+
+inline ss::Normal unit_normal(float x, float y, float z) {
+  const float length = std::sqrt(x * x + y * y + z * z);
+  return {x / length, y / length, z / length};
+}
+
+/// The cloud with the curved surface's own normals, each tilted by up to `noise`; one in fifty is missing.
+inline TestCloud with_surface_normals(TestCloud cloud, std::uint32_t seed, float noise = 0.2f) {
+  Random random(seed);
+  cloud.normals.clear();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const ss::Point p = cloud.at(i);
+    const float x = 6.0f * p.x - 2.0f * p.y + 120.0f * p.x * p.x + random.between(-noise, noise);
+    const float y = -2.0f * p.x - 3.0f * p.y + random.between(-noise, noise);
+    cloud.normals.push_back(random.below(50) == 0 ? no_normal : unit_normal(x, y, -1.0f));
+  }
+  return cloud;
+}
+
+/// The cloud with normals of any direction; one in fifty is missing.
+inline TestCloud with_random_normals(TestCloud cloud, std::uint32_t seed) {
+  Random random(seed);
+  cloud.normals.clear();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const float x = random.between(-1.0f, 1.0f);
+    const float y = random.between(-1.0f, 1.0f);
+    const float z = random.between(0.1f, 1.0f);
+    const ss::Normal normal = unit_normal(x, y, random.below(2) == 0 ? z : -z);
+    cloud.normals.push_back(random.below(50) == 0 ? no_normal : normal);
   }
   return cloud;
 }

@@ -56,8 +56,9 @@ void* operator new(std::size_t size) {
   if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+// Not in line: GCC 12 would see free() of what operator new gave and warn, whatever that does.
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace {
 
@@ -71,7 +72,7 @@ constexpr std::size_t points = 20000;
 struct Frame {
   TestCloud cloud;
   std::vector<std::uint32_t> keypoints;
-  explicit Frame(std::uint32_t moment) : cloud(curved_surface(moment, points)) {
+  explicit Frame(std::uint32_t moment) : cloud(with_surface_normals(curved_surface(moment, points), moment)) {
     for (std::uint32_t i = moment; i < points; i += 100) keypoints.push_back(i);
     keypoints.resize(150);
   }
@@ -107,6 +108,25 @@ TEST_CASE("allocation: one thread allocates nothing from the second frame on") {
   CHECK(steady_allocations<ss::Features<ss::Scsh336>>(1) == none);
   CHECK(steady_allocations<ss::Features<ss::Scsh336, ss::PackedLab>>(1) == none);
   CHECK(steady_allocations<ss::Features<ss::Ssh32>>(1) == none);
+  CHECK(steady_allocations<ss::Features<ss::Shot352>>(1) == none);
+  CHECK(steady_allocations<ss::Features<ss::Cshot1344>>(1) == none);
+}
+
+TEST_CASE("allocation: the kernel allocates nothing, not even at first") {
+  const Frame frame(1);
+  static ss::Workspace<2000> workspace;
+  static float out[ss::Cshot1344::size];
+  const ss::CloudView view = frame.cloud.view();
+  const ss::BruteSearch search{view};
+  const std::size_t before = allocations;
+  const Status shot = ss::describe_at<ss::Shot352>(view, search, 0, radius, workspace, out);
+  const Status cshot = ss::describe_at<ss::Cshot1344>(view, search, 0, radius, workspace, out);
+  const Status pcl = ss::describe_at<ss::PclCshot1344>(view, search, 0, radius, workspace, out);
+  const std::size_t after = allocations;
+  CHECK(after == before);
+  CHECK(shot == Status::ok);
+  CHECK(cshot == Status::ok);
+  CHECK(pcl == Status::ok);
 }
 
 TEST_CASE("allocation: an executor's threads allocate nothing from the second frame on") {
@@ -114,6 +134,7 @@ TEST_CASE("allocation: an executor's threads allocate nothing from the second fr
   CHECK(steady_allocations<ss::Features<ss::Scsh336>>(pool) == none);
   CHECK(steady_allocations<ss::Features<ss::Scsh336, ss::PackedLab>>(pool) == none);
   CHECK(steady_allocations<ss::Features<ss::Ssh32>>(pool) == none);
+  CHECK(steady_allocations<ss::Features<ss::Cshot1344>>(pool) == none);
 }
 
 TEST_CASE("allocation: threads that are started are the only thing that is allocated") {
