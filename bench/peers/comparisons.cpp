@@ -81,14 +81,17 @@ void print_ratios(const CloudResult& result) {
     if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
     lines[{c.ours->what.descriptor, c.peer->what.implementation}][column] = &c;
   }
-  std::printf("\n%-39s", "times as fast, per key point / frame");
+  std::printf("\n%-40s", "times as fast, per key point / frame");
   for (const std::string& column : columns) std::printf(" %17s", column.c_str());
   for (const auto& [line, cells] : lines) {
-    std::printf("\n%-9s vs %-26s", line.first.c_str(), line.second.c_str());
+    std::printf("\n%-10s vs %-26s", line.first.c_str(), line.second.c_str());
     for (const std::string& column : columns) {
       const auto cell = cells.find(column);
-      if (cell == cells.end()) continue;
-      std::printf(" %8.1f /%7.1f", cell->second->ratio_per_keypoint, cell->second->ratio_frame);
+      if (cell == cells.end()) {
+        std::printf(" %17s", "-");
+      } else {
+        std::printf(" %8.1f /%7.1f", cell->second->ratio_per_keypoint, cell->second->ratio_frame);
+      }
     }
   }
   std::printf("\n\n");

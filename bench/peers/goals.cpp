@@ -53,6 +53,13 @@ PerBuild shot(const CloudResult& r) {
   return ratio(r, "PCL SHOT", "SHOT-352", "SSH-32", &MeasuredContender::us_per_keypoint);
 }
 
+PerBuild same_shot(const CloudResult& r) {
+  return ratio(r, "PCL SHOT", "SHOT-352", "SHOT-352", &MeasuredContender::us_per_keypoint);
+}
+PerBuild same_shot_color(const CloudResult& r) {
+  return ratio(r, "PCL SHOTColor", "CSHOT-1344", "CSHOT-1344", &MeasuredContender::us_per_keypoint);
+}
+
 /// Time of one step over that of another.
 Value step_ratio(const CloudResult& result, const std::string& slower, const std::string& faster) {
   const auto a = result.steps.find(slower);
@@ -66,6 +73,18 @@ PerBuild search(const CloudResult& r) {
 }
 PerBuild index_build(const CloudResult& r) {
   return per_build([&](const std::string& b) { return step_ratio(r, "naive: tree", b + ": grid"); });
+}
+PerBuild normals(const CloudResult& r) {
+  return per_build(
+      [&](const std::string& b) { return step_ratio(r, "PCL: tree and normals within radius", b + ": normals"); });
+}
+PerBuild nearest_normals(const CloudResult& r) {
+  return per_build([&](const std::string& b) -> Value {
+    const Value tree = step_ratio(r, "PCL: unsorted tree", b + ": normals");
+    const Value normals = step_ratio(r, "PCL: normals", b + ": normals");
+    if (!tree || !normals) return {};
+    return *tree + *normals;
+  });
 }
 PerBuild two_threads(const CloudResult& r) {
   return per_build([&](const std::string& b) { return step_ratio(r, b + ": 1 thread", b + ": 2 threads"); });
@@ -132,6 +151,10 @@ const std::vector<Goal>& goals() {
       {"the same for the whole frame", Limit::at_least, {37.0, 55.0}, shot_color_frame, no_avx2},
       {"SCSH-336 per key point, naive double / ours", Limit::at_least, {13.0, 22.0}, naive, no_avx2},
       {"SSH-32 per key point, PCL SHOT-352 / ours", Limit::at_least, {32.0, 55.0}, shot, no_avx2},
+      {"SHOT-352 per key point, PCL / ours, normals given", Limit::at_least, {20.0, 32.0}, same_shot, no_avx2},
+      {"CSHOT-1344 per key point, PCL / ours, normals given", Limit::at_least, {18.0, 30.0}, same_shot_color, no_avx2},
+      {"normals of all points, index included, r = 0.01 m, PCL / ours", Limit::at_least, {8.0, 12.0}, normals, no_avx2},
+      {"the same, k = 10 with PCL", Limit::none, {}, nearest_normals, no_avx2},
       {"kernel SCSH-336, instructions per neighbour", Limit::at_most, {112.0, 68.0}, kernel, instructions},
       {"search + frame, instructions per neighbour", Limit::none, {}, search_and_frame, instructions},
       {"search per neighbour, nanoflann (leaf 10, unsorted) / grid", Limit::at_least, {4.0, 7.0}, search, no_avx2},

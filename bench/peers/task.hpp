@@ -13,6 +13,9 @@ namespace shortshot_bench::peers {
 /// Fixed, because PCL builds a tree in each call: the fewer key points, the worse it would look.
 inline constexpr std::size_t max_keypoints = 1000;
 
+/// Metres, of the normals of a whole cloud.
+inline constexpr float normal_radius = 0.01f;
+
 struct Task {
   std::string cloud;                     // the file's name without its folder
   RgbdCloud points;                      // with colours, and none without a position

@@ -51,12 +51,26 @@ struct State {
   explicit State(const Task& t) : task(t), view(view_of_cloud(t.points)) {}
 
   const Task& task;
-  const ss::CloudView view;
-  Grid grid;
+  ss::CloudView view;  // with normals once they are there
+  Grid grid, normal_grid;
   Tree tree;
+  std::vector<ss::Normal> normals;
   std::vector<ss::Lab> lab;
   golden::Neighbors neighbors;
 };
+
+/// By the grid that serves their radius best.
+void estimate_normals(State& state) {
+  state.normal_grid.build(state.view, normal_radius);
+  require(ss::estimate_normals(state.view, *state.normal_grid, normal_radius, state.normals));
+  state.view = ss::with_normals(state.view, state.normals.data());
+}
+
+template <class LabRule>
+void convert_colors(State& state) {
+  state.lab.resize(state.view.size);
+  require(ss::convert_colors<LabRule>(state.view, state.lab.data()));
+}
 
 template <class Search>
 void find_all(State& state, const Search& search) {
@@ -65,7 +79,25 @@ void find_all(State& state, const Search& search) {
   }
 }
 
-/// Search, frame and kernel of each key point; the cloud's colours are in `state.lab` already.
+template <class D>
+auto colors_for(const State& state, std::uint32_t key) {
+  if constexpr (D::needs_colors) {
+    return ss::LabColors{state.lab.data(), state.lab[key]};
+  } else {
+    return ss::NoColors{};
+  }
+}
+
+template <class D>
+auto normals_for(const State& state) {
+  if constexpr (D::needs_normals) {
+    return ss::CloudNormals{state.view};
+  } else {
+    return ss::NoNormals{};
+  }
+}
+
+/// Search, frame and kernel of each key point; normals and the cloud's colours, by D's rule, are there already.
 template <class D, class Search>
 void describe_all(State& state, const Search& search, ss::Features<D>& features) {
   float* row = features.values.data();
@@ -73,21 +105,17 @@ void describe_all(State& state, const Search& search, ss::Features<D>& features)
     const ss::Neighborhood& n = state.neighbors.gather(search, ss::point(state.view, key), state.task.radius);
     ss::Frame frame;
     if (ss::estimate_frame(n, state.task.radius, frame) == ss::Status::ok) {
-      if constexpr (D::needs_colors) {
-        static_cast<void>(
-            ss::describe<D>(n, ss::LabColors{state.lab.data(), state.lab[key]}, frame, state.task.radius, row));
-      } else {
-        static_cast<void>(ss::describe<D>(n, ss::NoColors{}, frame, state.task.radius, row));
-      }
+      static_cast<void>(
+          ss::describe<D>(n, colors_for<D>(state, key), normals_for<D>(state), frame, state.task.radius, row));
     }
     row += D::size;
   }
 }
 
-/// Adds D with one search, given by the state's member and the step that builds it.
+/// Adds D with one search, given by the state's member and the steps before it, which build it.
 template <class D, class Index>
-void add_contender(Suite& suite, const std::shared_ptr<State>& state, Index State::*index, std::size_t build,
-                   const char* descriptor) {
+void add_contender(Suite& suite, const std::shared_ptr<State>& state, Index State::*index,
+                   const std::vector<std::size_t>& before, const char* descriptor) {
   const auto features = std::make_shared<ss::Features<D>>();
   const auto extract = [=](unsigned threads) {
     const State& s = *state;
@@ -95,10 +123,11 @@ void add_contender(Suite& suite, const std::shared_ptr<State>& state, Index Stat
   };
   const std::string name = std::string(descriptor) + ", " + Index::name;
   Contender contender{"shortshot", descriptor, suite.name, Index::name};
-  contender.frame = {build, suite.add(name + ": extract", [=] { extract(1); })};
+  contender.frame = before;
+  contender.frame.push_back(suite.add(name + ": extract", [=] { extract(1); }));
   contender.describe = suite.add(name + ": describe", [=] { describe_all<D>(*state, *((*state).*index), *features); });
-  contender.output_bytes =
-      state->task.keypoints.size() * (D::size_bytes + sizeof features->status[0] + sizeof features->neighbors[0]);
+  contender.output_bytes = state->task.keypoints.size() * (D::size_bytes + sizeof features->status[0] +
+                                                           sizeof features->frames[0] + sizeof features->neighbors[0]);
   contender.rows = [=] { return static_cast<const float*>(features->values.data()); };
   suite.contenders.push_back(contender);
   if constexpr (std::is_same<Index, Grid>::value && std::is_same<D, ss::Scsh336>::value) {
@@ -116,8 +145,8 @@ void add_contender(Suite& suite, const std::shared_ptr<State>& state, Index Stat
 template <class D>
 void add_descriptor(Suite& suite, const std::shared_ptr<State>& state, std::size_t grid, std::size_t tree,
                     const char* descriptor) {
-  add_contender<D>(suite, state, &State::grid, grid, descriptor);
-  add_contender<D>(suite, state, &State::tree, tree, descriptor);
+  add_contender<D>(suite, state, &State::grid, {grid}, descriptor);
+  add_contender<D>(suite, state, &State::tree, {tree}, descriptor);
 }
 
 }  // namespace
@@ -127,21 +156,26 @@ Suite PEERS_SUITE(const Task& task) {
   Suite suite{PEERS_BUILD};
   suite.release = [state] {
     state->grid.release();
+    state->normal_grid.release();
     state->tree.release();
-    state->lab = std::vector<ss::Lab>();  // {} would keep its memory
+    state->view.normals = {};
+    state->normals = std::vector<ss::Normal>();  // {} would keep its memory
+    state->lab = std::vector<ss::Lab>();
     state->neighbors = {};
   };
   const std::size_t grid = suite.add("grid", [=] { state->grid.build(state->view, state->task.radius); });
   const std::size_t tree = suite.add("tree", [=] { state->tree.build(state->view, state->task.radius); });
   suite.add("search, grid", [=] { find_all(*state, *state->grid); });
   suite.add("search, nanoflann", [=] { find_all(*state, *state->tree); });
-  suite.add("Lab", [=] {
-    state->lab.resize(state->view.size);
-    require(ss::convert_colors<ss::PublishedLab>(state->view, state->lab.data()));
-  });
+  suite.add("Lab", [=] { convert_colors<ss::PublishedLab>(*state); });
   add_descriptor<ss::Ssh32>(suite, state, grid, tree, "SSH-32");
   add_descriptor<ss::Scsh336>(suite, state, grid, tree, "SCSH-336");
   add_descriptor<ss::Scsh696>(suite, state, grid, tree, "SCSH-696");
+  // PCL's own descriptors, defects included, so that both sides compute the same.
+  const std::size_t normals = suite.add("normals", [=] { estimate_normals(*state); });
+  suite.add("Lab, PCL's rule", [=] { convert_colors<ss::PclCshot1344::LabRule>(*state); });
+  add_contender<ss::PclShot352>(suite, state, &State::grid, {grid, normals}, "SHOT-352");
+  add_contender<ss::PclCshot1344>(suite, state, &State::grid, {grid, normals}, "CSHOT-1344");
   return suite;
 }
 
