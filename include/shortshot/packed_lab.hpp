@@ -13,8 +13,8 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
 /// A third of Lab's memory. L has 11 bits, a has 10 and b has 11, in steps that just cover what sRGB colours have (L
-/// 0..100, a -86.3..98.3, b -108..94.6; anything else, as PclLab's white, is clamped to about that). 0 and 100 of L and 0
-/// of a and b are exact.
+/// 0..100, a -86.3..98.3, b -108..94.6; anything else, as PclLab's white, is clamped to about that). 0 and 100 of L and
+/// 0 of a and b are exact.
 ///
 /// The colour distance between an exact Lab and an sRGB colour that went through here is wrong by at most 2.9e-4 of its
 /// range 0..1 (half a step in each: 0.05 / 600 + 0.1875 / 1440 + 0.1015625 / 1440). In the generated scene (4 cm
