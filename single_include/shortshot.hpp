@@ -2742,6 +2742,16 @@ struct Offsets {
   return simd::load(rest);
 }
 
+/// How many of the neighbours lie within a radius, the key point and its copies included.
+[[nodiscard]] inline std::uint32_t count_within(const Neighborhood& n, Radius radius) noexcept {
+  simd::I32 counts{};
+  std::uint32_t i = 0;
+  for (; i < n.size; i += simd::lanes) {
+    counts = increment(load_offsets(n, i).d2 < simd::all(radius.squared), counts);
+  }
+  return static_cast<std::uint32_t>(sum(counts)) - (i - n.size);  // without what fills up the last register
+}
+
 /// Offer one point of the cloud to the neighbourhood: THE membership rule, for every search. A point is a neighbour if
 /// its float squared distance is strictly below `radius_squared`; written so that NaN is refused.
 inline void offer(Neighborhood& out, const Point& p, std::uint32_t index, const Point& center,
@@ -3696,13 +3706,6 @@ template <int Size>
   return Status::ok;
 }
 
-/// How many of the neighbours lie within the radius, the key point and its copies included?
-[[nodiscard]] inline std::uint32_t count_within(const Neighborhood& n, Radius radius) noexcept {
-  std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < n.size; ++i) count += n.d2[i] < radius.squared ? 1u : 0u;
-  return count;
-}
-
 }  // namespace detail
 
 /// Describe a gathered neighbourhood in a frame: the kernel of every descriptor.
@@ -3746,7 +3749,7 @@ template <class D, class Colors, class Normals>
     described += chunk.size;
   }
   constexpr std::uint32_t fewest = D::Cells::min_neighbors;
-  if (fewest > 0 && described < fewest && detail::count_within(n, radius) < fewest) {
+  if (fewest > 0 && described < fewest && count_within(n, radius) < fewest) {
     std::memset(out, 0, D::size_bytes);
     return Status::too_few_neighbors;
   }
@@ -3911,85 +3914,88 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
 /// Fewest neighbours (the key point and its copies included) for a normal, as in PCL.
-inline constexpr int min_normal_neighbors = 3;
+inline constexpr std::uint32_t min_normal_neighbors = 3;
 
 namespace detail {
 
 /// How members are brought to fixed point: coordinates times `unit`, which makes the farthest one at most 1 long; then
-/// they, and products of two of them, times `scale`, a power of two.
+/// they, and products of two of them, times `scale`.
 struct MomentScale {
   float unit;
   float scale;
 };
 
-/// The same for all neighbourhoods of a radius and of up to max_plain_members: terms of 20 bits, sums below 2^31.
-inline constexpr std::uint32_t max_plain_members = 2047;
-[[nodiscard]] inline MomentScale plain_scale(Radius radius) noexcept { return {1.0f / radius.value, 1048576.0f}; }
+/// The finest for `n` points that are no farther than `farthest`: a power of two, terms of at most 22 bits (what
+/// simd::round_to_int() can take), sums below 2^31.
+[[nodiscard]] inline MomentScale moment_scale(std::uint32_t n, float farthest) noexcept {
+  const float room = 1073741824.0f / static_cast<float>(n);
+  return {1.0f / farthest, math::power_of_two_below(room < 4194304.0f ? room : 4194304.0f)};
+}
 
-/// The finest for one neighbourhood: its farthest member is 1 long, terms have up to 22 bits.
-[[nodiscard]] inline MomentScale finest_scale(const Neighborhood& n, Radius radius) noexcept {
+/// How far the members reach; 1e-19 m at least: below that, squares are lost to underflow.
+[[nodiscard]] inline float farthest_member(const Neighborhood& n, Radius radius) noexcept {
   simd::F32 farthest = simd::all(0.0f);
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const simd::F32 d2 = load_offsets(n, i).d2;
     farthest = simd::max(farthest, keep(d2 < simd::all(radius.squared), d2));
   }
-  // Below 1e-19 m squares are lost to underflow: such members count as if they were at the key point.
   const float root = simd::root(simd::largest(farthest));
-  const float room = 1073741824.0f / static_cast<float>(n.size);
-  return {1.0f / (root > 1e-19f ? root : 1e-19f), math::power_of_two_below(room < 4194304.0f ? room : 4194304.0f)};
+  return root > 1e-19f ? root : 1e-19f;
 }
 
-/// Sums over the members of a neighbourhood: all that its plane depends on. Integers, see fixed_point.hpp. Lanes hold
-/// either shares of one neighbourhood, or neighbourhoods.
-struct Moments {
-  simd::I32 members, x, y, z, xx, xy, xz, yy, yz, zz;
+/// What points add to moments: x, y, z; xx, xy, xz, yy, yz, zz. Integers, see fixed_point.hpp.
+struct Terms {
+  static constexpr int kinds = 9;
+  simd::I32 of[kinds];
 };
 
-[[gnu::always_inline]] inline void add(Moments& to, const Offsets& v, Radius radius, const MomentScale& by) noexcept {
+[[nodiscard, gnu::always_inline]] inline Terms terms_of(const Offsets& v, const MomentScale& by) noexcept {
   using simd::all;
   using simd::F32;
-  const simd::Mask near = v.d2 < all(radius.squared);
   const F32 x = v.dx * all(by.unit);
   const F32 y = v.dy * all(by.unit);
   const F32 z = v.dz * all(by.unit);
-  const F32 wx = keep(near, x * all(by.scale));
-  const F32 wy = keep(near, y * all(by.scale));
-  const F32 wz = keep(near, z * all(by.scale));
-  to.members = increment(near, to.members);
-  to.x = to.x + round_to_int(wx);
-  to.y = to.y + round_to_int(wy);
-  to.z = to.z + round_to_int(wz);
-  to.xx = to.xx + round_to_int(wx * x);
-  to.xy = to.xy + round_to_int(wx * y);
-  to.xz = to.xz + round_to_int(wx * z);
-  to.yy = to.yy + round_to_int(wy * y);
-  to.yz = to.yz + round_to_int(wy * z);
-  to.zz = to.zz + round_to_int(wz * z);
+  const F32 wx = x * all(by.scale);
+  const F32 wy = y * all(by.scale);
+  const F32 wz = z * all(by.scale);
+  return {{round_to_int(wx), round_to_int(wy), round_to_int(wz), round_to_int(wx * x), round_to_int(wx * y),
+           round_to_int(wx * z), round_to_int(wy * y), round_to_int(wy * z), round_to_int(wz * z)}};
+}
+
+/// Sums over the members of a neighbourhood: all that its plane depends on. Lanes hold either shares of one
+/// neighbourhood, or neighbourhoods. The origin is arbitrary.
+struct Moments {
+  simd::I32 members;
+  simd::I32 of[Terms::kinds];
+};
+
+/// Adds a register of points, where they are members.
+template <class TermOf>
+[[gnu::always_inline]] inline void add_where(simd::Mask members, Moments& to, TermOf term_of) noexcept {
+  to.members = increment(members, to.members);
+  unroll<Terms::kinds>([&](auto k) { to.of[k] = to.of[k] + keep(members, term_of(k)); });
 }
 
 /// The sums over one neighbourhood, in every lane.
 [[nodiscard]] inline Moments moments_of(const Neighborhood& n, Radius radius, const MomentScale& by) noexcept {
-  Moments m{};
+  Moments shares{};
   std::uint32_t i = 0;
-  for (; i < n.size; i += simd::lanes) add(m, load_offsets(n, i), radius, by);
-  const auto total = [](simd::I32 shares) { return simd::all_int(sum(shares)); };
+  for (; i < n.size; i += simd::lanes) {
+    const Offsets v = load_offsets(n, i);
+    const Terms terms = terms_of(v, by);
+    add_where(v.d2 < simd::all(radius.squared), shares, [&](auto k) { return terms.of[k]; });
+  }
   const auto left_over = static_cast<std::int32_t>(i - n.size);  // what fills up the last register
-  return {total(m.members) - simd::all_int(left_over),
-          total(m.x),
-          total(m.y),
-          total(m.z),
-          total(m.xx),
-          total(m.xy),
-          total(m.xz),
-          total(m.yy),
-          total(m.yz),
-          total(m.zz)};
+  Moments moments;
+  moments.members = simd::all_int(sum(shares.members) - left_over);
+  unroll<Terms::kinds>([&](auto k) { moments.of[k] = simd::all_int(sum(shares.of[k])); });
+  return moments;
 }
 
 /// Are there enough members, and do they reach far enough in the unit for their rounding to integers to mean nothing?
 [[nodiscard]] inline simd::Mask is_fine(const Moments& m, const MomentScale& by) noexcept {
-  const simd::Mask enough = m.members > simd::all_int(min_normal_neighbors - 1);
-  return enough & (to_float(m.xx + m.yy + m.zz) > to_float(m.members) * simd::all(0.0625f * by.scale));
+  const simd::Mask enough = m.members > simd::all_int(static_cast<std::int32_t>(min_normal_neighbors) - 1);
+  return enough & (to_float(m.of[3] + m.of[6] + m.of[8]) > to_float(m.members) * simd::all(0.0625f * by.scale));
 }
 
 /// A vector in each lane.
@@ -4007,17 +4013,17 @@ struct VectorLanes {
                                             const VectorLanes& towards) noexcept {
   using simd::all;
   using simd::F32;
+  const auto moment = [&m](int kind) { return to_float(m.of[kind]); };
   const F32 members = to_float(m.members);
-  const F32 x = to_float(m.x);
-  const F32 y = to_float(m.y);
-  const F32 z = to_float(m.z);
+  const F32 x = moment(0);
+  const F32 y = moment(1);
+  const F32 z = moment(2);
   const F32 weight = all(1.0f) / (members * all(by.scale));
   const F32 mean_x = x * weight;
   const F32 mean_y = y * weight;
   const F32 mean_z = z * weight;
-  const EigenLanes eigen =
-      decompose_lanes({to_float(m.xx) - x * mean_x, to_float(m.xy) - x * mean_y, to_float(m.xz) - x * mean_z,
-                       to_float(m.yy) - y * mean_y, to_float(m.yz) - y * mean_z, to_float(m.zz) - z * mean_z});
+  const EigenLanes eigen = decompose_lanes({moment(3) - x * mean_x, moment(4) - x * mean_y, moment(5) - x * mean_z,
+                                            moment(6) - y * mean_y, moment(7) - y * mean_z, moment(8) - z * mean_z});
   // What float can tell apart, and what the rounding of the members to integers may have moved.
   const F32 resolution = all(1e-6f) * eigen.values[2] + all(4.0f) * members;
   const simd::Mask flat = eigen.values[1] - eigen.values[0] > resolution;
@@ -4063,17 +4069,16 @@ struct VectorLanes {
   if (!math::is_finite(view)) return Status::bad_viewpoint;
 
   const detail::VectorLanes towards{simd::all(view[0]), simd::all(view[1]), simd::all(view[2])};
-  detail::MomentScale scale = detail::plain_scale(radius);
-  if (n.size <= detail::max_plain_members) {
-    const detail::Moments moments = detail::moments_of(n, radius, scale);
-    if (any(detail::is_fine(moments, scale))) {
-      normal = detail::normal_in(detail::normals_of(moments, scale, towards), 0);
-      if (!detail::is_zero(normal)) return Status::ok;
-    }
+  const std::uint32_t members = count_within(n, radius);
+  if (members < min_normal_neighbors) return Status::too_few_neighbors;
+  detail::MomentScale scale = detail::moment_scale(members, radius.value);
+  detail::Moments moments = detail::moments_of(n, radius, scale);
+  if (any(detail::is_fine(moments, scale))) {
+    normal = detail::normal_in(detail::normals_of(moments, scale, towards), 0);
+    if (!detail::is_zero(normal)) return Status::ok;
   }
-  scale = detail::finest_scale(n, radius);
-  const detail::Moments moments = detail::moments_of(n, radius, scale);
-  if (any(simd::all_int(min_normal_neighbors) > moments.members)) return Status::too_few_neighbors;
+  scale = detail::moment_scale(members, detail::farthest_member(n, radius));
+  moments = detail::moments_of(n, radius, scale);
   normal = detail::normal_in(detail::normals_of(moments, scale, towards), 0);
   return detail::is_zero(normal) ? Status::ambiguous_frame : Status::ok;
 }
@@ -5103,8 +5108,68 @@ namespace detail {
 /// Points that a thread takes at a time: about a quarter of a millisecond of work.
 inline constexpr std::size_t normal_block = 512;
 
+/// Some of the points that may be neighbours of a group: where they are, and their terms of moments.
+class CandidateChunk {
+ public:
+  static constexpr std::uint32_t most = 64;
+
+  /// Candidates from `first` on; their moments are about the place that `candidates` were gathered around.
+  void fill(const CloudView& cloud, const Neighborhood& candidates, std::uint32_t first,
+            const MomentScale& by) noexcept {
+    for (size_ = 0; size_ < most && first + size_ < candidates.size; size_ += simd::lanes) {
+      std::uint32_t index[simd::lanes];
+      simd::store(index, load_indices(candidates, first + size_));
+      const PointLanes p = read_lanes(cloud.points, [&](std::size_t lane) { return std::size_t{index[lane]}; });
+      const simd::Mask exists = simd::first(candidates.size - first - size_);
+      // What fills up the last register is nobody's neighbour.
+      simd::store(x_ + size_, select(exists, p.x, simd::all(std::numeric_limits<float>::quiet_NaN())));
+      simd::store(y_ + size_, p.y);
+      simd::store(z_ + size_, p.z);
+      const Terms each = terms_of(load_offsets(candidates, first + size_), by);
+      unroll<Terms::kinds>([&](auto k) { simd::store(terms_[k] + size_, each.of[k]); });
+    }
+  }
+
+  /// Adds those that are neighbours of a point.
+  void add_neighbors(const Point& p, Radius radius, Moments& to) const noexcept {
+    const simd::F32 x = simd::all(p.x);
+    const simd::F32 y = simd::all(p.y);
+    const simd::F32 z = simd::all(p.z);
+    Moments sums = to;
+    for (std::uint32_t i = 0; i < size_; i += simd::lanes) {
+      const simd::F32 dx = simd::load(x_ + i) - x;
+      const simd::F32 dy = simd::load(y_ + i) - y;
+      const simd::F32 dz = simd::load(z_ + i) - z;
+      const simd::Mask near = (dx * dx + dy * dy) + dz * dz < simd::all(radius.squared);
+      add_where(near, sums, [&](auto k) { return simd::load(terms_[k] + i); });
+    }
+    to = sums;
+  }
+
+ private:
+  alignas(simd::F32) float x_[most];
+  alignas(simd::F32) float y_[most];
+  alignas(simd::F32) float z_[most];
+  alignas(simd::F32) std::uint32_t terms_[Terms::kinds][most];
+  std::uint32_t size_ = 0;
+};
+
+/// The totals of moments whose lanes hold shares, one after the other.
+[[nodiscard]] inline Moments totals(const Moments* shares) noexcept {
+  Moments result;
+  const auto total = [&](const auto& share_of) {
+    std::uint32_t lanes[simd::lanes];
+    for (std::size_t k = 0; k < simd::lanes; ++k) lanes[k] = static_cast<std::uint32_t>(sum(share_of(shares[k])));
+    return simd::load(lanes);
+  };
+  result.members = total([](const Moments& m) { return m.members; });
+  unroll<Terms::kinds>([&](auto k) { result.of[k] = total([k](const Moments& m) { return m.of[k]; }); });
+  return result;
+}
+
 /// Estimates normals of a few points at a time. Points that follow each other in a cloud mostly lie side by side: one
-/// search, a little wider, finds the neighbours of all, and each candidate is offered to all of them in lanes.
+/// search, a little wider, finds the neighbours of all, and what a neighbour adds to moments about their middle is
+/// computed once for all of them.
 template <class Search>
 class NormalEstimator {
  public:
@@ -5140,24 +5205,22 @@ class NormalEstimator {
   }
 
  private:
-  static constexpr std::size_t group = 8;
+  static constexpr std::size_t group = 16;
   static_assert(group % simd::lanes == 0, "whole registers");
 
-  /// The k-th point, where two rows of an image are walked at once: what follows each other then lies in a square.
+  /// The k-th point, where four rows of an image are walked at once: a group then lies in a square.
   [[nodiscard]] std::size_t in_zigzag(std::size_t k) const noexcept {
+    constexpr std::size_t rows = 4;
     if (row_ == 0) return k;
-    const std::size_t first = k - k % (2 * row_);
-    return cloud_.size - first < 2 * row_ ? k : first + (k - first) / 2 + k % 2 * row_;
+    const std::size_t first = k - k % (rows * row_);
+    return cloud_.size - first < rows * row_ ? k : first + (k - first) / rows + k % rows * row_;
   }
 
   void estimate_group() {
     Normal found[group] = {};
     Neighborhood candidates;
-    if (gather_for_all(candidates)) {
-      for (std::size_t first = 0; first < group; first += simd::lanes) {
-        estimate_register(candidates, first, found + first);
-      }
-    }
+    Radius wide = radius_;
+    if (gather_for_all(candidates, wide)) estimate_together(candidates, wide, found);
     for (std::size_t k = 0; k < group; ++k) {
       if (is_zero(found[k])) {
         estimate_alone(k);
@@ -5167,8 +5230,9 @@ class NormalEstimator {
     }
   }
 
-  /// Candidates for the neighbours of all points of the group; false if it is not worth while.
-  [[nodiscard]] bool gather_for_all(Neighborhood& candidates) {
+  /// Candidates for the neighbours of all points of the group, and the radius that it takes; false if it is not worth
+  /// while.
+  [[nodiscard]] bool gather_for_all(Neighborhood& candidates, Radius& wide) {
     const auto middle = [](const float(&v)[group]) {
       const auto ends = std::minmax_element(v, v + group);
       return 0.5f * (*ends.first + *ends.second);
@@ -5181,29 +5245,28 @@ class NormalEstimator {
       const float dz = z_[k] - center.z;
       farthest_d2 = std::max(farthest_d2, rounded(dx * dx) + rounded(dy * dy) + rounded(dz * dz));
     }
-    const Radius wide((radius_.value + simd::root(farthest_d2)) * 1.00001f);  // more than all roundings
+    wide = Radius((radius_.value + simd::root(farthest_d2)) * 1.00001f);  // more than all roundings
     return wide.value < 3.0f * radius_.value && check(wide) == Status::ok &&
-           workspace_.gather(search_, center, wide, candidates) == Status::ok && candidates.size <= max_plain_members;
+           workspace_.gather(search_, center, wide, candidates) == Status::ok;
   }
 
-  /// One register of the group, from point `first` on; zeros for those that need to be looked at alone.
-  void estimate_register(const Neighborhood& candidates, std::size_t first, Normal* found) const noexcept {
-    const simd::F32 x = simd::load(x_ + first);
-    const simd::F32 y = simd::load(y_ + first);
-    const simd::F32 z = simd::load(z_ + first);
-    const MomentScale scale = plain_scale(radius_);
-    const CloudView cloud = cloud_;
-    Moments moments{};
-    for (std::uint32_t i = 0; i < candidates.size; ++i) {
-      const Point p = point(cloud, candidates.index[i]);
-      const simd::F32 dx = simd::all(p.x) - x;
-      const simd::F32 dy = simd::all(p.y) - y;
-      const simd::F32 dz = simd::all(p.z) - z;
-      add(moments, {dx, dy, dz, (dx * dx + dy * dy) + dz * dz}, radius_, scale);
+  /// Normals of the group; zeros for those that need to be looked at alone.
+  void estimate_together(const Neighborhood& candidates, Radius wide, Normal (&found)[group]) const noexcept {
+    const MomentScale scale = moment_scale(candidates.size, wide.value);
+    Moments shares[group] = {};
+    CandidateChunk chunk;
+    for (std::uint32_t first = 0; first < candidates.size; first += CandidateChunk::most) {
+      chunk.fill(cloud_, candidates, first, scale);
+      for (std::size_t k = 0; k < group; ++k) chunk.add_neighbors({x_[k], y_[k], z_[k]}, radius_, shares[k]);
     }
-    const VectorLanes towards{simd::all(viewpoint_.x) - x, simd::all(viewpoint_.y) - y, simd::all(viewpoint_.z) - z};
-    const VectorLanes normals = keep(is_fine(moments, scale), normals_of(moments, scale, towards));
-    for (std::size_t lane = 0; lane < simd::lanes; ++lane) found[lane] = normal_in(normals, lane);
+    for (std::size_t first = 0; first < group; first += simd::lanes) {
+      const Moments moments = totals(shares + first);
+      const VectorLanes towards{simd::all(viewpoint_.x) - simd::load(x_ + first),
+                                simd::all(viewpoint_.y) - simd::load(y_ + first),
+                                simd::all(viewpoint_.z) - simd::load(z_ + first)};
+      const VectorLanes normals = keep(is_fine(moments, scale), normals_of(moments, scale, towards));
+      for (std::size_t lane = 0; lane < simd::lanes; ++lane) found[first + lane] = normal_in(normals, lane);
+    }
   }
 
   void estimate_alone(std::size_t k) {
@@ -5229,7 +5292,8 @@ class NormalEstimator {
 
 }  // namespace detail
 
-/// The surface normal at each point of a cloud (see estimate_normal()).
+/// The surface normal at each point of a cloud, as estimate_normal() gives it but for the rounding of sums: points that
+/// follow each other are looked at together.
 ///
 /// `search`     any search over this cloud (GridSearch, NanoflannSearch, ...)
 /// `radius`     of the neighbourhoods, in metres
@@ -5257,7 +5321,7 @@ template <class Search, class Threads = unsigned>
   auto&& executor = detail::executor_of(threads, (cloud.size + detail::normal_block - 1) / detail::normal_block);
   const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
   std::vector<detail::GrowingWorkspace> workspaces(team);
-  for (detail::GrowingWorkspace& workspace : workspaces) workspace.reserve(detail::max_plain_members);
+  for (detail::GrowingWorkspace& workspace : workspaces) workspace.reserve(1024);
   normals.resize(cloud.size);
   detail::for_blocks(
       executor, team, cloud.size, detail::normal_block, [&](std::size_t thread, std::size_t begin, std::size_t end) {

@@ -65,13 +65,6 @@ template <int Size>
   return Status::ok;
 }
 
-/// How many of the neighbours lie within the radius, the key point and its copies included?
-[[nodiscard]] inline std::uint32_t count_within(const Neighborhood& n, Radius radius) noexcept {
-  std::uint32_t count = 0;
-  for (std::uint32_t i = 0; i < n.size; ++i) count += n.d2[i] < radius.squared ? 1u : 0u;
-  return count;
-}
-
 }  // namespace detail
 
 /// Describe a gathered neighbourhood in a frame: the kernel of every descriptor.
@@ -115,7 +108,7 @@ template <class D, class Colors, class Normals>
     described += chunk.size;
   }
   constexpr std::uint32_t fewest = D::Cells::min_neighbors;
-  if (fewest > 0 && described < fewest && detail::count_within(n, radius) < fewest) {
+  if (fewest > 0 && described < fewest && count_within(n, radius) < fewest) {
     std::memset(out, 0, D::size_bytes);
     return Status::too_few_neighbors;
   }

@@ -17,6 +17,7 @@
 #include "rounded.hpp"
 #include "simd.hpp"
 #include "status.hpp"
+#include "unroll.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -25,8 +26,68 @@ namespace detail {
 /// Points that a thread takes at a time: about a quarter of a millisecond of work.
 inline constexpr std::size_t normal_block = 512;
 
+/// Some of the points that may be neighbours of a group: where they are, and their terms of moments.
+class CandidateChunk {
+ public:
+  static constexpr std::uint32_t most = 64;
+
+  /// Candidates from `first` on; their moments are about the place that `candidates` were gathered around.
+  void fill(const CloudView& cloud, const Neighborhood& candidates, std::uint32_t first,
+            const MomentScale& by) noexcept {
+    for (size_ = 0; size_ < most && first + size_ < candidates.size; size_ += simd::lanes) {
+      std::uint32_t index[simd::lanes];
+      simd::store(index, load_indices(candidates, first + size_));
+      const PointLanes p = read_lanes(cloud.points, [&](std::size_t lane) { return std::size_t{index[lane]}; });
+      const simd::Mask exists = simd::first(candidates.size - first - size_);
+      // What fills up the last register is nobody's neighbour.
+      simd::store(x_ + size_, select(exists, p.x, simd::all(std::numeric_limits<float>::quiet_NaN())));
+      simd::store(y_ + size_, p.y);
+      simd::store(z_ + size_, p.z);
+      const Terms each = terms_of(load_offsets(candidates, first + size_), by);
+      unroll<Terms::kinds>([&](auto k) { simd::store(terms_[k] + size_, each.of[k]); });
+    }
+  }
+
+  /// Adds those that are neighbours of a point.
+  void add_neighbors(const Point& p, Radius radius, Moments& to) const noexcept {
+    const simd::F32 x = simd::all(p.x);
+    const simd::F32 y = simd::all(p.y);
+    const simd::F32 z = simd::all(p.z);
+    Moments sums = to;
+    for (std::uint32_t i = 0; i < size_; i += simd::lanes) {
+      const simd::F32 dx = simd::load(x_ + i) - x;
+      const simd::F32 dy = simd::load(y_ + i) - y;
+      const simd::F32 dz = simd::load(z_ + i) - z;
+      const simd::Mask near = (dx * dx + dy * dy) + dz * dz < simd::all(radius.squared);
+      add_where(near, sums, [&](auto k) { return simd::load(terms_[k] + i); });
+    }
+    to = sums;
+  }
+
+ private:
+  alignas(simd::F32) float x_[most];
+  alignas(simd::F32) float y_[most];
+  alignas(simd::F32) float z_[most];
+  alignas(simd::F32) std::uint32_t terms_[Terms::kinds][most];
+  std::uint32_t size_ = 0;
+};
+
+/// The totals of moments whose lanes hold shares, one after the other.
+[[nodiscard]] inline Moments totals(const Moments* shares) noexcept {
+  Moments result;
+  const auto total = [&](const auto& share_of) {
+    std::uint32_t lanes[simd::lanes];
+    for (std::size_t k = 0; k < simd::lanes; ++k) lanes[k] = static_cast<std::uint32_t>(sum(share_of(shares[k])));
+    return simd::load(lanes);
+  };
+  result.members = total([](const Moments& m) { return m.members; });
+  unroll<Terms::kinds>([&](auto k) { result.of[k] = total([k](const Moments& m) { return m.of[k]; }); });
+  return result;
+}
+
 /// Estimates normals of a few points at a time. Points that follow each other in a cloud mostly lie side by side: one
-/// search, a little wider, finds the neighbours of all, and each candidate is offered to all of them in lanes.
+/// search, a little wider, finds the neighbours of all, and what a neighbour adds to moments about their middle is
+/// computed once for all of them.
 template <class Search>
 class NormalEstimator {
  public:
@@ -62,24 +123,22 @@ class NormalEstimator {
   }
 
  private:
-  static constexpr std::size_t group = 8;
+  static constexpr std::size_t group = 16;
   static_assert(group % simd::lanes == 0, "whole registers");
 
-  /// The k-th point, where two rows of an image are walked at once: what follows each other then lies in a square.
+  /// The k-th point, where four rows of an image are walked at once: a group then lies in a square.
   [[nodiscard]] std::size_t in_zigzag(std::size_t k) const noexcept {
+    constexpr std::size_t rows = 4;
     if (row_ == 0) return k;
-    const std::size_t first = k - k % (2 * row_);
-    return cloud_.size - first < 2 * row_ ? k : first + (k - first) / 2 + k % 2 * row_;
+    const std::size_t first = k - k % (rows * row_);
+    return cloud_.size - first < rows * row_ ? k : first + (k - first) / rows + k % rows * row_;
   }
 
   void estimate_group() {
     Normal found[group] = {};
     Neighborhood candidates;
-    if (gather_for_all(candidates)) {
-      for (std::size_t first = 0; first < group; first += simd::lanes) {
-        estimate_register(candidates, first, found + first);
-      }
-    }
+    Radius wide = radius_;
+    if (gather_for_all(candidates, wide)) estimate_together(candidates, wide, found);
     for (std::size_t k = 0; k < group; ++k) {
       if (is_zero(found[k])) {
         estimate_alone(k);
@@ -89,8 +148,9 @@ class NormalEstimator {
     }
   }
 
-  /// Candidates for the neighbours of all points of the group; false if it is not worth while.
-  [[nodiscard]] bool gather_for_all(Neighborhood& candidates) {
+  /// Candidates for the neighbours of all points of the group, and the radius that it takes; false if it is not worth
+  /// while.
+  [[nodiscard]] bool gather_for_all(Neighborhood& candidates, Radius& wide) {
     const auto middle = [](const float(&v)[group]) {
       const auto ends = std::minmax_element(v, v + group);
       return 0.5f * (*ends.first + *ends.second);
@@ -103,29 +163,28 @@ class NormalEstimator {
       const float dz = z_[k] - center.z;
       farthest_d2 = std::max(farthest_d2, rounded(dx * dx) + rounded(dy * dy) + rounded(dz * dz));
     }
-    const Radius wide((radius_.value + simd::root(farthest_d2)) * 1.00001f);  // more than all roundings
+    wide = Radius((radius_.value + simd::root(farthest_d2)) * 1.00001f);  // more than all roundings
     return wide.value < 3.0f * radius_.value && check(wide) == Status::ok &&
-           workspace_.gather(search_, center, wide, candidates) == Status::ok && candidates.size <= max_plain_members;
+           workspace_.gather(search_, center, wide, candidates) == Status::ok;
   }
 
-  /// One register of the group, from point `first` on; zeros for those that need to be looked at alone.
-  void estimate_register(const Neighborhood& candidates, std::size_t first, Normal* found) const noexcept {
-    const simd::F32 x = simd::load(x_ + first);
-    const simd::F32 y = simd::load(y_ + first);
-    const simd::F32 z = simd::load(z_ + first);
-    const MomentScale scale = plain_scale(radius_);
-    const CloudView cloud = cloud_;
-    Moments moments{};
-    for (std::uint32_t i = 0; i < candidates.size; ++i) {
-      const Point p = point(cloud, candidates.index[i]);
-      const simd::F32 dx = simd::all(p.x) - x;
-      const simd::F32 dy = simd::all(p.y) - y;
-      const simd::F32 dz = simd::all(p.z) - z;
-      add(moments, {dx, dy, dz, (dx * dx + dy * dy) + dz * dz}, radius_, scale);
+  /// Normals of the group; zeros for those that need to be looked at alone.
+  void estimate_together(const Neighborhood& candidates, Radius wide, Normal (&found)[group]) const noexcept {
+    const MomentScale scale = moment_scale(candidates.size, wide.value);
+    Moments shares[group] = {};
+    CandidateChunk chunk;
+    for (std::uint32_t first = 0; first < candidates.size; first += CandidateChunk::most) {
+      chunk.fill(cloud_, candidates, first, scale);
+      for (std::size_t k = 0; k < group; ++k) chunk.add_neighbors({x_[k], y_[k], z_[k]}, radius_, shares[k]);
     }
-    const VectorLanes towards{simd::all(viewpoint_.x) - x, simd::all(viewpoint_.y) - y, simd::all(viewpoint_.z) - z};
-    const VectorLanes normals = keep(is_fine(moments, scale), normals_of(moments, scale, towards));
-    for (std::size_t lane = 0; lane < simd::lanes; ++lane) found[lane] = normal_in(normals, lane);
+    for (std::size_t first = 0; first < group; first += simd::lanes) {
+      const Moments moments = totals(shares + first);
+      const VectorLanes towards{simd::all(viewpoint_.x) - simd::load(x_ + first),
+                                simd::all(viewpoint_.y) - simd::load(y_ + first),
+                                simd::all(viewpoint_.z) - simd::load(z_ + first)};
+      const VectorLanes normals = keep(is_fine(moments, scale), normals_of(moments, scale, towards));
+      for (std::size_t lane = 0; lane < simd::lanes; ++lane) found[first + lane] = normal_in(normals, lane);
+    }
   }
 
   void estimate_alone(std::size_t k) {
@@ -151,7 +210,8 @@ class NormalEstimator {
 
 }  // namespace detail
 
-/// The surface normal at each point of a cloud (see estimate_normal()).
+/// The surface normal at each point of a cloud, as estimate_normal() gives it but for the rounding of sums: points that
+/// follow each other are looked at together.
 ///
 /// `search`     any search over this cloud (GridSearch, NanoflannSearch, ...)
 /// `radius`     of the neighbourhoods, in metres
@@ -179,7 +239,7 @@ template <class Search, class Threads = unsigned>
   auto&& executor = detail::executor_of(threads, (cloud.size + detail::normal_block - 1) / detail::normal_block);
   const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
   std::vector<detail::GrowingWorkspace> workspaces(team);
-  for (detail::GrowingWorkspace& workspace : workspaces) workspace.reserve(detail::max_plain_members);
+  for (detail::GrowingWorkspace& workspace : workspaces) workspace.reserve(1024);
   normals.resize(cloud.size);
   detail::for_blocks(
       executor, team, cloud.size, detail::normal_block, [&](std::size_t thread, std::size_t begin, std::size_t end) {

@@ -99,6 +99,16 @@ struct Offsets {
   return simd::load(rest);
 }
 
+/// How many of the neighbours lie within a radius, the key point and its copies included.
+[[nodiscard]] inline std::uint32_t count_within(const Neighborhood& n, Radius radius) noexcept {
+  simd::I32 counts{};
+  std::uint32_t i = 0;
+  for (; i < n.size; i += simd::lanes) {
+    counts = increment(load_offsets(n, i).d2 < simd::all(radius.squared), counts);
+  }
+  return static_cast<std::uint32_t>(sum(counts)) - (i - n.size);  // without what fills up the last register
+}
+
 /// Offer one point of the cloud to the neighbourhood: THE membership rule, for every search. A point is a neighbour if
 /// its float squared distance is strictly below `radius_squared`; written so that NaN is refused.
 inline void offer(Neighborhood& out, const Point& p, std::uint32_t index, const Point& center,

@@ -11,90 +11,94 @@
 #include "simd.hpp"
 #include "status.hpp"
 #include "symmetric_eigen.hpp"
+#include "unroll.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
 /// Fewest neighbours (the key point and its copies included) for a normal, as in PCL.
-inline constexpr int min_normal_neighbors = 3;
+inline constexpr std::uint32_t min_normal_neighbors = 3;
 
 namespace detail {
 
 /// How members are brought to fixed point: coordinates times `unit`, which makes the farthest one at most 1 long; then
-/// they, and products of two of them, times `scale`, a power of two.
+/// they, and products of two of them, times `scale`.
 struct MomentScale {
   float unit;
   float scale;
 };
 
-/// The same for all neighbourhoods of a radius and of up to max_plain_members: terms of 20 bits, sums below 2^31.
-inline constexpr std::uint32_t max_plain_members = 2047;
-[[nodiscard]] inline MomentScale plain_scale(Radius radius) noexcept { return {1.0f / radius.value, 1048576.0f}; }
+/// The finest for `n` points that are no farther than `farthest`: a power of two, terms of at most 22 bits (what
+/// simd::round_to_int() can take), sums below 2^31.
+[[nodiscard]] inline MomentScale moment_scale(std::uint32_t n, float farthest) noexcept {
+  const float room = 1073741824.0f / static_cast<float>(n);
+  return {1.0f / farthest, math::power_of_two_below(room < 4194304.0f ? room : 4194304.0f)};
+}
 
-/// The finest for one neighbourhood: its farthest member is 1 long, terms have up to 22 bits.
-[[nodiscard]] inline MomentScale finest_scale(const Neighborhood& n, Radius radius) noexcept {
+/// How far the members reach; 1e-19 m at least: below that, squares are lost to underflow.
+[[nodiscard]] inline float farthest_member(const Neighborhood& n, Radius radius) noexcept {
   simd::F32 farthest = simd::all(0.0f);
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const simd::F32 d2 = load_offsets(n, i).d2;
     farthest = simd::max(farthest, keep(d2 < simd::all(radius.squared), d2));
   }
-  // Below 1e-19 m squares are lost to underflow: such members count as if they were at the key point.
   const float root = simd::root(simd::largest(farthest));
-  const float room = 1073741824.0f / static_cast<float>(n.size);
-  return {1.0f / (root > 1e-19f ? root : 1e-19f), math::power_of_two_below(room < 4194304.0f ? room : 4194304.0f)};
+  return root > 1e-19f ? root : 1e-19f;
 }
 
-/// Sums over the members of a neighbourhood: all that its plane depends on. Integers, see fixed_point.hpp. Lanes hold
-/// either shares of one neighbourhood, or neighbourhoods.
-struct Moments {
-  simd::I32 members, x, y, z, xx, xy, xz, yy, yz, zz;
+/// What points add to moments: x, y, z; xx, xy, xz, yy, yz, zz. Integers, see fixed_point.hpp.
+struct Terms {
+  static constexpr int kinds = 9;
+  simd::I32 of[kinds];
 };
 
-[[gnu::always_inline]] inline void add(Moments& to, const Offsets& v, Radius radius, const MomentScale& by) noexcept {
+[[nodiscard, gnu::always_inline]] inline Terms terms_of(const Offsets& v, const MomentScale& by) noexcept {
   using simd::all;
   using simd::F32;
-  const simd::Mask near = v.d2 < all(radius.squared);
   const F32 x = v.dx * all(by.unit);
   const F32 y = v.dy * all(by.unit);
   const F32 z = v.dz * all(by.unit);
-  const F32 wx = keep(near, x * all(by.scale));
-  const F32 wy = keep(near, y * all(by.scale));
-  const F32 wz = keep(near, z * all(by.scale));
-  to.members = increment(near, to.members);
-  to.x = to.x + round_to_int(wx);
-  to.y = to.y + round_to_int(wy);
-  to.z = to.z + round_to_int(wz);
-  to.xx = to.xx + round_to_int(wx * x);
-  to.xy = to.xy + round_to_int(wx * y);
-  to.xz = to.xz + round_to_int(wx * z);
-  to.yy = to.yy + round_to_int(wy * y);
-  to.yz = to.yz + round_to_int(wy * z);
-  to.zz = to.zz + round_to_int(wz * z);
+  const F32 wx = x * all(by.scale);
+  const F32 wy = y * all(by.scale);
+  const F32 wz = z * all(by.scale);
+  return {{round_to_int(wx), round_to_int(wy), round_to_int(wz), round_to_int(wx * x), round_to_int(wx * y),
+           round_to_int(wx * z), round_to_int(wy * y), round_to_int(wy * z), round_to_int(wz * z)}};
+}
+
+/// Sums over the members of a neighbourhood: all that its plane depends on. Lanes hold either shares of one
+/// neighbourhood, or neighbourhoods. The origin is arbitrary.
+struct Moments {
+  simd::I32 members;
+  simd::I32 of[Terms::kinds];
+};
+
+/// Adds a register of points, where they are members.
+template <class TermOf>
+[[gnu::always_inline]] inline void add_where(simd::Mask members, Moments& to, TermOf term_of) noexcept {
+  to.members = increment(members, to.members);
+  unroll<Terms::kinds>([&](auto k) { to.of[k] = to.of[k] + keep(members, term_of(k)); });
 }
 
 /// The sums over one neighbourhood, in every lane.
 [[nodiscard]] inline Moments moments_of(const Neighborhood& n, Radius radius, const MomentScale& by) noexcept {
-  Moments m{};
+  Moments shares{};
   std::uint32_t i = 0;
-  for (; i < n.size; i += simd::lanes) add(m, load_offsets(n, i), radius, by);
-  const auto total = [](simd::I32 shares) { return simd::all_int(sum(shares)); };
+  for (; i < n.size; i += simd::lanes) {
+    const Offsets v = load_offsets(n, i);
+    const Terms terms = terms_of(v, by);
+    add_where(v.d2 < simd::all(radius.squared), shares, [&](auto k) { return terms.of[k]; });
+  }
   const auto left_over = static_cast<std::int32_t>(i - n.size);  // what fills up the last register
-  return {total(m.members) - simd::all_int(left_over),
-          total(m.x),
-          total(m.y),
-          total(m.z),
-          total(m.xx),
-          total(m.xy),
-          total(m.xz),
-          total(m.yy),
-          total(m.yz),
-          total(m.zz)};
+  Moments moments;
+  moments.members = simd::all_int(sum(shares.members) - left_over);
+  unroll<Terms::kinds>([&](auto k) { moments.of[k] = simd::all_int(sum(shares.of[k])); });
+  return moments;
 }
 
 /// Are there enough members, and do they reach far enough in the unit for their rounding to integers to mean nothing?
 [[nodiscard]] inline simd::Mask is_fine(const Moments& m, const MomentScale& by) noexcept {
-  const simd::Mask enough = m.members > simd::all_int(min_normal_neighbors - 1);
-  return enough & (to_float(m.xx + m.yy + m.zz) > to_float(m.members) * simd::all(0.0625f * by.scale));
+  const simd::Mask enough = m.members > simd::all_int(static_cast<std::int32_t>(min_normal_neighbors) - 1);
+  return enough & (to_float(m.of[3] + m.of[6] + m.of[8]) > to_float(m.members) * simd::all(0.0625f * by.scale));
 }
 
 /// A vector in each lane.
@@ -112,17 +116,17 @@ struct VectorLanes {
                                             const VectorLanes& towards) noexcept {
   using simd::all;
   using simd::F32;
+  const auto moment = [&m](int kind) { return to_float(m.of[kind]); };
   const F32 members = to_float(m.members);
-  const F32 x = to_float(m.x);
-  const F32 y = to_float(m.y);
-  const F32 z = to_float(m.z);
+  const F32 x = moment(0);
+  const F32 y = moment(1);
+  const F32 z = moment(2);
   const F32 weight = all(1.0f) / (members * all(by.scale));
   const F32 mean_x = x * weight;
   const F32 mean_y = y * weight;
   const F32 mean_z = z * weight;
-  const EigenLanes eigen =
-      decompose_lanes({to_float(m.xx) - x * mean_x, to_float(m.xy) - x * mean_y, to_float(m.xz) - x * mean_z,
-                       to_float(m.yy) - y * mean_y, to_float(m.yz) - y * mean_z, to_float(m.zz) - z * mean_z});
+  const EigenLanes eigen = decompose_lanes({moment(3) - x * mean_x, moment(4) - x * mean_y, moment(5) - x * mean_z,
+                                            moment(6) - y * mean_y, moment(7) - y * mean_z, moment(8) - z * mean_z});
   // What float can tell apart, and what the rounding of the members to integers may have moved.
   const F32 resolution = all(1e-6f) * eigen.values[2] + all(4.0f) * members;
   const simd::Mask flat = eigen.values[1] - eigen.values[0] > resolution;
@@ -168,17 +172,16 @@ struct VectorLanes {
   if (!math::is_finite(view)) return Status::bad_viewpoint;
 
   const detail::VectorLanes towards{simd::all(view[0]), simd::all(view[1]), simd::all(view[2])};
-  detail::MomentScale scale = detail::plain_scale(radius);
-  if (n.size <= detail::max_plain_members) {
-    const detail::Moments moments = detail::moments_of(n, radius, scale);
-    if (any(detail::is_fine(moments, scale))) {
-      normal = detail::normal_in(detail::normals_of(moments, scale, towards), 0);
-      if (!detail::is_zero(normal)) return Status::ok;
-    }
+  const std::uint32_t members = count_within(n, radius);
+  if (members < min_normal_neighbors) return Status::too_few_neighbors;
+  detail::MomentScale scale = detail::moment_scale(members, radius.value);
+  detail::Moments moments = detail::moments_of(n, radius, scale);
+  if (any(detail::is_fine(moments, scale))) {
+    normal = detail::normal_in(detail::normals_of(moments, scale, towards), 0);
+    if (!detail::is_zero(normal)) return Status::ok;
   }
-  scale = detail::finest_scale(n, radius);
-  const detail::Moments moments = detail::moments_of(n, radius, scale);
-  if (any(simd::all_int(min_normal_neighbors) > moments.members)) return Status::too_few_neighbors;
+  scale = detail::moment_scale(members, detail::farthest_member(n, radius));
+  moments = detail::moments_of(n, radius, scale);
   normal = detail::normal_in(detail::normals_of(moments, scale, towards), 0);
   return detail::is_zero(normal) ? Status::ambiguous_frame : Status::ok;
 }

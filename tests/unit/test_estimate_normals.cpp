@@ -1,4 +1,4 @@
-// The normals of a whole cloud: those of estimate_normal(), bit for bit, whatever the search and the threads.
+// The normals of a whole cloud: those of estimate_normal() but for rounding, the same bits for any search and threads.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -51,9 +51,21 @@ Normals expected(const ss::CloudView& view, float radius, ss::Point viewpoint = 
   return normals;
 }
 
+/// Both may be off by what oracle_plane() allows.
+void require_alike(const TestCloud& cloud, float radius, const Normals& normals, const Normals& alone) {
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    CAPTURE(i);
+    REQUIRE(std::isnan(normals[i].x) == std::isnan(alone[i].x));
+    if (std::isnan(normals[i].x)) continue;
+    const double sine = to_double(normals[i]).cross(to_double(alone[i])).norm();
+    if (sine > 1e-6) REQUIRE(sine <= 2.0 * oracle_plane(cloud, i, radius).bound);
+  }
+}
+
 void check_cloud(const TestCloud& cloud, float radius, ss::Point viewpoint = {}) {
   const ss::GridSearch grid(cloud.view(), radius);
-  CHECK(same_bits(estimated(cloud.view(), grid, radius, viewpoint), expected(cloud.view(), radius, viewpoint)));
+  require_alike(cloud, radius, estimated(cloud.view(), grid, radius, viewpoint),
+                expected(cloud.view(), radius, viewpoint));
 }
 
 TestCloud image_with_holes(std::uint32_t seed) {
@@ -82,7 +94,7 @@ TestCloud medley() {
 
 }  // namespace
 
-TEST_CASE("estimate_normals: the bits of every point alone") {
+TEST_CASE("estimate_normals: as every point alone") {
   check_cloud(curved_surface(1, 3000), 0.01f);
   check_cloud(blob(2, 3000), 0.02f, {1.0f, -2.0f, 0.5f});
   check_cloud(medley(), 0.02f);
@@ -92,7 +104,7 @@ TEST_CASE("estimate_normals: the bits of every point alone") {
   for (std::size_t points = 1; points < 20; ++points) check_cloud(curved_surface(4, points), 0.5f);
 }
 
-TEST_CASE("estimate_normals: images, of any shape and with holes, give the bits that their points give") {
+TEST_CASE("estimate_normals: images, of any shape and with holes, give what their points give") {
   const TestCloud cloud = image_with_holes(5);
   const float radius = 0.06f;
   const Normals normals = expected(cloud.view(), radius);
@@ -101,7 +113,7 @@ TEST_CASE("estimate_normals: images, of any shape and with holes, give the bits 
     const std::size_t height = width == 0 ? 5 : width > cloud.size() ? 2 : cloud.size() / width;
     const ss::CloudView view = ss::organized(cloud.view(), width, height);
     CAPTURE(width);
-    CHECK(same_bits(estimated(view, ss::GridSearch(view, radius), radius), normals));
+    require_alike(cloud, radius, estimated(view, ss::GridSearch(view, radius), radius), normals);
   }
 }
 
