@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -17,6 +18,7 @@
 #include "demo/run.hpp"
 #include "io/input_error.hpp"
 #include "io/read_cloud.hpp"
+#include "io/view_of_cloud.hpp"
 #include "io/write_descriptor_pcd.hpp"
 #include "io/write_npy.hpp"
 #include "scene/tabletop.hpp"
@@ -44,6 +46,11 @@ std::size_t valid_points(const shortshot::CloudView& view) {
   return valid;
 }
 
+std::size_t with_normal(const std::vector<shortshot::Normal>& normals) {
+  return static_cast<std::size_t>(
+      std::count_if(normals.begin(), normals.end(), [](const shortshot::Normal& n) { return !std::isnan(n.x); }));
+}
+
 void print_result(const RgbdCloud& cloud, double read_ms, const DemoOptions& options, const DemoResult& result) {
   const std::size_t keypoints = result.keypoints.size();
   const double bytes = 4.0 * static_cast<double>(result.size);
@@ -54,6 +61,10 @@ void print_result(const RgbdCloud& cloud, double read_ms, const DemoOptions& opt
               read_ms);
   std::printf("  key points          %zu, one per %g m voxel, in %.1f ms\n", keypoints,
               static_cast<double>(options.leaf), result.sample_ms);
+  if (!result.normals.empty()) {
+    std::printf("  normals             %zu points within %g m, in %.1f ms\n", with_normal(result.normals),
+                static_cast<double>(normal_radius(options)), result.normals_ms);
+  }
   std::printf("  index               %s, in %.1f ms\n", options.search.c_str(), result.index_ms);
   std::printf("  neighbours          %.0f per key point within %g m (%u to %u)\n", sum / static_cast<double>(keypoints),
               static_cast<double>(options.radius), *least, *most);
@@ -81,6 +92,9 @@ void write_result(const RgbdCloud& cloud, const DemoOptions& options, const Demo
     }
     std::vector<std::string> comments = {options.descriptor + ", radius " + std::to_string(options.radius) +
                                          " m, L2 norm 1 (all zeros: not described); parts one after the other:"};
+    if (!result.normals.empty()) {
+      comments.insert(comments.begin(), "normals within " + std::to_string(normal_radius(options)) + " m");
+    }
     comments.insert(comments.end(), result.layout.begin(), result.layout.end());
     write_descriptor_pcd(options.out, positions, result.values.data(), result.size, comments);
   }

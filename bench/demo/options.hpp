@@ -1,6 +1,7 @@
 // What the demo is asked to do.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@ struct DemoOptions {
   std::vector<std::string> clouds;  // files; empty: the generated tabletop
   std::string descriptor = "scsh336";
   float radius = 0.04f;
+  std::optional<float> normal_radius;  // of the normals, where the descriptor needs them; a quarter of the radius
   float leaf = 0.02f;
   std::string search = "grid";
   unsigned threads = 1;

@@ -1,4 +1,4 @@
-// One cloud through the whole pipeline: key points, index, descriptors; with times and counts.
+// One cloud through the whole pipeline: key points, normals, index, descriptors; with times and counts.
 #pragma once
 
 #include <chrono>
@@ -30,14 +30,17 @@ struct DemoResult {
   std::vector<float> values;  // one row of `size` floats per key point
   std::vector<shortshot::Status> status;
   std::vector<std::uint32_t> neighbors;
+  std::vector<shortshot::Normal> normals;  // one per point, or none if the descriptor needs none
   std::size_t size = 0;
   std::vector<std::string> layout;  // one line per part
   double sample_ms = 0.0;
+  double normals_ms = 0.0;  // with an index for them
   double index_ms = 0.0;
   double describe_ms = 0.0;
 };
 
-shortshot::CloudView view_of_cloud(const RgbdCloud& cloud);
+/// Of the normals that shot352 and cshot1344 need.
+float normal_radius(const DemoOptions& options);
 
 /// Throws std::runtime_error with the library's own message where it returns a status for the whole cloud.
 DemoResult run_demo(const RgbdCloud& cloud, const DemoOptions& options);

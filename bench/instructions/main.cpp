@@ -33,10 +33,12 @@ const std::string compiler = "clang " TEXT(__clang_major__) MACHINE;
 #else
 const std::string compiler = "GCC " TEXT(__GNUC__) MACHINE;
 #endif
-const std::string workload = "generated tabletop, 640 x 480, seed 1, R = 0.04 m, 100 key points";
+const std::string workload =
+    "generated tabletop, 640 x 480, seed 1, R = 0.04 m, 100 key points; normals: all points, R = 0.01 m";
 
 bool is_gated(const std::string& stage) {
-  for (const char* name : {"search grid", "frame", "kernel Ssh32", "kernel Scsh336", "kernel Scsh696"}) {
+  for (const char* name : {"search grid", "frame", "normals", "kernel Ssh32", "kernel Scsh336", "kernel Scsh696",
+                           "kernel Shot352", "kernel Cshot1344"}) {
     if (stage == name) return true;
   }
   return false;
@@ -113,7 +115,8 @@ int update(const std::vector<Figure>& measured, const std::string& record_file) 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Instructions per neighbour of search, frame and kernel, by callgrind, against the figures on record.");
+  CLI::App app(
+      "Instructions per neighbour of search, frame, normals and kernel, by callgrind, against the figures on record.");
   app.name("instructions");
   app.require_subcommand(1);
   std::string counts;

@@ -42,7 +42,7 @@ void run(benchmark::State& state, const Stage& stage, const InstructionCounter& 
   add_costs(state, "point", stage.points, begin, end);
   add_costs(state, "keypoint", stage.keypoints, begin, end);
   add_costs(state, "neighbour", stage.neighbors, begin, end);
-  if (stage.keypoints > 0) {
+  if (stage.keypoints > 0 && stage.neighbors > 0) {
     state.counters["neighbours"] = static_cast<double>(stage.neighbors) / static_cast<double>(stage.keypoints);
   }
   if (stage.bytes > 0) state.counters["bytes"] = static_cast<double>(stage.bytes);

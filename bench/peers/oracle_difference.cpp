@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "demo/run.hpp"
 #include "golden/neighbors.hpp"
+#include "io/view_of_cloud.hpp"
 #include "shortshot/shortshot.hpp"
 #include "unit/oracle.hpp"
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "demo/run.hpp"
+#include "io/view_of_cloud.hpp"
 #include "shortshot/shortshot.hpp"
 
 namespace shortshot_bench::peers {

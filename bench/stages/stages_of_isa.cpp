@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/view_of_cloud.hpp"
 #include "shortshot/search/nanoflann.hpp"
 #include "shortshot/shortshot.hpp"
 
@@ -37,14 +38,34 @@ template <class Search>
   return shortshot::estimate_frame(n, radius, frame);
 }
 
-template <class D, class Colors>
-[[gnu::noinline]] Status kernel(const shortshot::Neighborhood& n, const Colors& colors, const shortshot::Frame& frame,
-                                float radius, float* out) {
-  return shortshot::describe<D>(n, colors, frame, radius, out);
+[[gnu::noinline]] Status normals_of_cloud(const shortshot::CloudView& view, const shortshot::GridSearch& search,
+                                          float radius, const shortshot::Point& camera,
+                                          std::vector<shortshot::Normal>& normals) {
+  return shortshot::estimate_normals(view, search, radius, normals, camera);
 }
 
+template <class D, class Colors, class Normals>
+[[gnu::noinline]] Status kernel(const shortshot::Neighborhood& n, const Colors& colors, const Normals& normals,
+                                const shortshot::Frame& frame, float radius, float* out) {
+  return shortshot::describe<D>(n, colors, normals, frame, radius, out);
+}
+
+template <class Rule>
 [[gnu::noinline]] Status lab_of_cloud(const shortshot::CloudView& view, shortshot::Lab* lab) {
-  return shortshot::convert_colors<shortshot::PublishedLab>(view, lab);
+  return shortshot::convert_colors<Rule>(view, lab);
+}
+
+template <class D>
+[[gnu::noinline]] void bits_of(const float* values, shortshot::BinaryDescriptor<D>& bits) {
+  shortshot::binarize(values, bits);
+}
+
+template <class D>
+[[gnu::noinline]] int distance_to_all(const shortshot::BinaryDescriptor<D>& one,
+                                      const std::vector<shortshot::BinaryDescriptor<D>>& all) {
+  int sum = 0;
+  for (const auto& other : all) sum += shortshot::hamming_distance(one, other);
+  return sum;
 }
 
 std::size_t allocated_bytes() {
@@ -68,11 +89,7 @@ struct Tree : shortshot::NanoflannSearch {
 class StageList {
  public:
   explicit StageList(const Workload& workload)
-      : workload_(workload), grid_(std::make_shared<shortshot::GridSearch>(workload.view(), workload.radius)) {
-    if (!workload.cloud.has_colors()) return;
-    lab_->resize(workload.cloud.size());
-    static_cast<void>(lab_of_cloud(workload.view(), lab_->data()));  // it has colours, all that can be wrong
-  }
+      : workload_(workload), grid_(std::make_shared<shortshot::GridSearch>(workload.view(), workload.radius)) {}
 
   template <class Search>
   void add_index(const char* name) {
@@ -102,9 +119,24 @@ class StageList {
         "frame", [frame](const GatheredKeyPoint& k, float radius) { return frame_of(k.neighborhood, radius, *frame); });
   }
 
+  /// Of the whole cloud on one thread, the index not included; in the memory of the last run.
+  void add_normals() {
+    const Workload& w = workload_;
+    const auto near = std::make_shared<shortshot::GridSearch>(w.view(), w.normal_radius);
+    const auto normals = std::make_shared<std::vector<shortshot::Normal>>();
+    Stage& stage = add("normals", [&w, near, normals] {
+      return normals_of_cloud(w.view(), *near, w.normal_radius, camera_of_cloud(w.cloud), *normals);
+    });
+    stage.points = w.cloud.size();
+    stage.neighbors = w.normal_neighbors;
+    stage.bytes = stage.points * sizeof(shortshot::Normal);
+  }
+
   void add_lab() {
     if (!workload_.cloud.has_colors()) return;
-    Stage& stage = add("lab", [&w = workload_, lab = lab_] { return lab_of_cloud(w.view(), lab->data()); });
+    Stage& stage = add("lab", [&w = workload_, lab = lab_by<shortshot::PublishedLab>()] {
+      return lab_of_cloud<shortshot::PublishedLab>(w.view(), lab->data());
+    });
     stage.points = workload_.cloud.size();
     stage.bytes = stage.points * sizeof(shortshot::Lab);
   }
@@ -114,6 +146,32 @@ class StageList {
     if (D::needs_colors && !workload_.cloud.has_colors()) return;
     add_kernel<D>(name);
     add_extract<D>(name);
+  }
+
+  /// B-SHOT of the chosen key points, and the distances of the first one to all.
+  template <class D>
+  void add_binary(const char* name) {
+    using Bits = shortshot::BinaryDescriptor<D>;
+    constexpr auto size = static_cast<std::size_t>(D::size);
+    const auto run = kernel_of<D>();
+    const auto values = std::make_shared<std::vector<float>>(workload_.chosen.size() * size);
+    const auto bits = std::make_shared<std::vector<Bits>>(workload_.chosen.size());
+    for (std::size_t i = 0; i < workload_.chosen.size(); ++i) {  // a kernel that fails says so in its own stage
+      static_cast<void>(run(workload_.chosen[i], workload_.radius, values->data() + i * size));
+      bits_of<D>(values->data() + i * size, (*bits)[i]);
+    }
+    Stage& binarize = add(std::string("binarize ") + name, [values, bits] {
+      for (std::size_t i = 0; i < bits->size(); ++i) bits_of<D>(values->data() + i * size, (*bits)[i]);
+      return Status::ok;
+    });
+    binarize.keypoints = bits->size();
+    binarize.bytes = sizeof(Bits);
+    const auto distance = std::make_shared<int>();
+    Stage& hamming = add(std::string("hamming ") + name, [bits, distance] {
+      *distance = distance_to_all<D>(bits->front(), *bits);
+      return Status::ok;
+    });
+    hamming.keypoints = bits->size();
   }
 
   std::vector<Stage> stages;
@@ -153,16 +211,41 @@ class StageList {
     return stage;
   }
 
+  /// The cloud's colours by a rule.
+  template <class Rule>
+  std::shared_ptr<std::vector<shortshot::Lab>> lab_by() const {
+    const auto lab = std::make_shared<std::vector<shortshot::Lab>>(workload_.cloud.size());
+    static_cast<void>(lab_of_cloud<Rule>(workload_.view(), lab->data()));  // it has colours, all that can be wrong
+    return lab;
+  }
+
+  /// The kernel as a function of the key point, with the cloud's colours and normals at hand.
+  template <class D>
+  auto kernel_of() const {
+    std::shared_ptr<std::vector<shortshot::Lab>> lab;
+    if constexpr (D::needs_colors) lab = lab_by<typename D::LabRule>();
+    return [lab, view = workload_.view()](const GatheredKeyPoint& k, float radius, float* out) {
+      const auto run = [&](const auto& colors) {
+        if constexpr (D::needs_normals) {
+          return kernel<D>(k.neighborhood, colors, shortshot::CloudNormals{view}, k.frame, radius, out);
+        } else {
+          return kernel<D>(k.neighborhood, colors, shortshot::NoNormals{}, k.frame, radius, out);
+        }
+      };
+      if constexpr (D::needs_colors) {
+        return run(shortshot::LabColors{lab->data(), shortshot::to_lab<typename D::LabRule>(k.key.color)});
+      } else {
+        return run(shortshot::NoColors{});
+      }
+    };
+  }
+
   template <class D>
   void add_kernel(const char* name) {
     const auto out = std::make_shared<std::vector<float>>(static_cast<std::size_t>(D::size));
-    Stage& stage = add_for_chosen(std::string("kernel ") + name, [lab = lab_, out](const GatheredKeyPoint& k, float r) {
-      if constexpr (D::needs_colors) {
-        const shortshot::LabColors colors{lab->data(), shortshot::to_lab<typename D::LabRule>(k.key.color)};
-        return kernel<D>(k.neighborhood, colors, k.frame, r, out->data());
-      } else {
-        return kernel<D>(k.neighborhood, shortshot::NoColors{}, k.frame, r, out->data());
-      }
+    const auto run = kernel_of<D>();
+    Stage& stage = add_for_chosen(std::string("kernel ") + name, [run, out](const GatheredKeyPoint& k, float radius) {
+      return run(k, radius, out->data());
     });
     stage.bytes = D::size_bytes;
   }
@@ -181,7 +264,6 @@ class StageList {
 
   const Workload& workload_;
   std::shared_ptr<shortshot::GridSearch> grid_;
-  std::shared_ptr<std::vector<shortshot::Lab>> lab_ = std::make_shared<std::vector<shortshot::Lab>>();
 };
 
 }  // namespace
@@ -194,11 +276,15 @@ StageBuild STAGES(const Workload& workload) {
   list.add_search_grid();
   list.add_search_nanoflann();
   list.add_frame();
+  list.add_normals();
   list.add_lab();
   list.add_descriptor<shortshot::Ssh32>("Ssh32");
   list.add_descriptor<shortshot::Ssh96>("Ssh96");
   list.add_descriptor<shortshot::Scsh336>("Scsh336");
   list.add_descriptor<shortshot::Scsh696>("Scsh696");
+  list.add_descriptor<shortshot::Shot352>("Shot352");
+  list.add_descriptor<shortshot::Cshot1344>("Cshot1344");
+  list.add_binary<shortshot::Shot352>("Shot352");
   return {std::string(TEXT(SHORTSHOT_ISA)).substr(std::string("isa_").size()), std::move(list.stages)};
 }
 

@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "demo/run.hpp"
+#include "io/view_of_cloud.hpp"
+#include "shortshot/describe.hpp"
+#include "shortshot/estimate_normals.hpp"
 #include "shortshot/sample.hpp"
 #include "shortshot/search/grid_hosted.hpp"
 #include "shortshot/status.hpp"
@@ -26,7 +28,7 @@ std::uint32_t count_neighbors(const shortshot::GridSearch& search, const shortsh
   return none.found;
 }
 
-/// Adds the key point unless it has no frame.
+/// Adds the key point unless it has no frame or, for want of normals around it, no SHOT.
 void choose(const shortshot::GridSearch& search, const shortshot::KeyPoint& key, std::uint32_t count,
             Workload& workload) {
   NeighborhoodMemory memory(count);
@@ -34,9 +36,23 @@ void choose(const shortshot::GridSearch& search, const shortshot::KeyPoint& key,
   require(search.gather(key.position, workload.radius, neighborhood));
   shortshot::Frame frame;
   if (shortshot::estimate_frame(neighborhood, workload.radius, frame) != Status::ok) return;
+  float shot[shortshot::Shot352::size];
+  const Status described = shortshot::describe<shortshot::Shot352>(
+      neighborhood, shortshot::NoColors{}, shortshot::CloudNormals{workload.view()}, frame, workload.radius, shot);
+  if (described != Status::ok) return;
   workload.chosen_neighbors += count;
   workload.most_neighbors = std::max(workload.most_neighbors, count);
   workload.chosen.push_back({key, std::move(memory), neighborhood, frame});
+}
+
+void add_normals(Workload& workload) {
+  const shortshot::CloudView view = view_of_cloud(workload.cloud);
+  const shortshot::GridSearch search(view, workload.normal_radius);
+  const shortshot::Point camera = camera_of_cloud(workload.cloud);
+  require(shortshot::estimate_normals(view, search, workload.normal_radius, workload.normals, camera));
+  shortshot::for_each_valid(view, [&](std::size_t, const shortshot::Point& p) {
+    workload.normal_neighbors += count_neighbors(search, p, workload.normal_radius);
+  });
 }
 
 }  // namespace
@@ -50,10 +66,11 @@ shortshot::Neighborhood NeighborhoodMemory::empty() const {
   return {p, p + n, p + 2 * n, p + 3 * n, index_.get(), capacity_, 0, 0};
 }
 
-shortshot::CloudView Workload::view() const { return view_of_cloud(cloud); }
+shortshot::CloudView Workload::view() const { return shortshot::with_normals(view_of_cloud(cloud), normals.data()); }
 
 Workload make_workload(RgbdCloud cloud, const WorkloadOptions& options) {
-  Workload workload{std::move(cloud), options.radius, {}, 0, {}, 0, 0};
+  Workload workload{std::move(cloud), options.radius, 0.25f * options.radius, {}, 0, {}, 0, {}, 0, 0};
+  add_normals(workload);
   const shortshot::CloudView view = workload.view();
   require(shortshot::sample_uniform(view, options.leaf, workload.sampled));
   const shortshot::GridSearch search(view, options.radius);
@@ -65,7 +82,8 @@ Workload make_workload(RgbdCloud cloud, const WorkloadOptions& options) {
     workload.sampled_neighbors += count;
     if (i % step == 0) choose(search, key, count, workload);
   }
-  if (workload.chosen.empty()) throw std::runtime_error("no key point has a frame: is the radius in the cloud's unit?");
+  if (workload.chosen.empty())
+    throw std::runtime_error("no key point has a frame and normals: is the radius in the cloud's unit?");
   return workload;
 }
 

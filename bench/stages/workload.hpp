@@ -1,5 +1,5 @@
-// What benchmarks of single stages work on: a cloud, key points, and each one's neighbourhood and frame, made
-// beforehand.
+// What benchmarks of single stages work on: a cloud with normals, key points, and each one's neighbourhood and frame,
+// made beforehand.
 #pragma once
 
 #include <cstddef>
@@ -45,17 +45,20 @@ struct GatheredKeyPoint {
 struct Workload {
   RgbdCloud cloud;
   float radius;
-  std::vector<std::uint32_t> sampled;    // key points by uniform sampling: what extract() is given
-  std::size_t sampled_neighbors;         // of them all together
-  std::vector<GatheredKeyPoint> chosen;  // some of them, so few that their neighbourhoods stay in the cache
-  std::size_t chosen_neighbors;          // of these all together
-  std::uint32_t most_neighbors;          // of one of these
+  float normal_radius;                     // a quarter of it
+  std::vector<shortshot::Normal> normals;  // one per point, towards the camera
+  std::size_t normal_neighbors;            // of all valid points together, within that radius
+  std::vector<std::uint32_t> sampled;      // key points by uniform sampling: what extract() is given
+  std::size_t sampled_neighbors;           // of them all together
+  std::vector<GatheredKeyPoint> chosen;    // some of them, so few that their neighbourhoods stay in the cache
+  std::size_t chosen_neighbors;            // of these all together
+  std::uint32_t most_neighbors;            // of one of these
 
-  shortshot::CloudView view() const;
+  shortshot::CloudView view() const;  // with normals
 };
 
-/// Key points without a frame are not chosen. Throws std::runtime_error with the library's own message where the cloud,
-/// the radius or the leaf cannot be used, or if no key point has a frame.
+/// Key points without a frame or, for want of normals, without SHOT are not chosen. Throws std::runtime_error with the
+/// library's own message where the cloud, the radius or the leaf cannot be used, or if no key point is left.
 Workload make_workload(RgbdCloud cloud, const WorkloadOptions& options);
 
 }  // namespace shortshot_bench

@@ -47,12 +47,15 @@ template <class D, class Color, class Search>
   }
 }
 
-/// Room in all workspaces for an eighth more neighbours than the largest neighbourhood had, whichever thread gets it
-/// next time: the next frame, a little different, needs no memory.
-inline void level(std::vector<GrowingWorkspace>& workspaces, const std::vector<std::uint32_t>& neighbors) {
+/// Room in all workspaces for a quarter more neighbours than the largest neighbourhood had, whichever thread gets it
+/// next time. Nothing is done about frames up to an eighth larger than that: frames a little different need no memory.
+template <class Scratch>
+void level(Scratch& scratch, const std::vector<std::uint32_t>& neighbors) {
   if (neighbors.empty()) return;
   const std::size_t most = std::min(*std::max_element(neighbors.begin(), neighbors.end()), max_neighbors);
-  for (GrowingWorkspace& workspace : workspaces) workspace.reserve(most + most / 8);
+  if (most <= scratch.leveled_for) return;
+  for (GrowingWorkspace& workspace : scratch.workspaces) workspace.reserve(most + most / 4);
+  scratch.leveled_for = most + most / 8;
 }
 
 /// `key_at(i, key)` makes `key` key point i and returns true, or returns false for one outside the cloud.
@@ -72,7 +75,10 @@ template <class D, class Color, class Search, class KeyAt, class Threads>
   }
   auto& scratch = out.scratch;
   const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-  if (scratch.workspaces.size() < team) scratch.workspaces.resize(team);
+  if (scratch.workspaces.size() < team) {
+    scratch.workspaces.resize(team);
+    scratch.leveled_for = 0;
+  }
   if constexpr (D::needs_colors) {
     scratch.to_lab.fill();
     scratch.lab.resize(cloud.size);
@@ -91,7 +97,7 @@ template <class D, class Color, class Search, class KeyAt, class Threads>
       std::fill_n(out.values.data() + row * row_size, row_size, 0.0f);
     }
   });
-  level(scratch.workspaces, out.neighbors);
+  level(scratch, out.neighbors);
   return Status::ok;
 }
 

@@ -75,6 +75,7 @@ struct Features {
     LabTable<typename D::LabRule> to_lab;
     std::vector<Color> lab;                            // the cloud's colours
     std::vector<detail::GrowingWorkspace> workspaces;  // one per thread
+    std::size_t leveled_for = 0;                       // neighbours that each of them has had room made for
   } scratch;                                           ///< extract()'s own; nothing to read there
 };
 

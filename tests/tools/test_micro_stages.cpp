@@ -13,7 +13,7 @@
 #include "micro/options.hpp"
 #include "micro/register.hpp"
 #include "scene/tabletop.hpp"
-#include "shortshot/frame.hpp"
+#include "shortshot/shortshot.hpp"
 #include "stages/stages.hpp"
 
 namespace {
@@ -28,7 +28,7 @@ RgbdCloud small_scene() {
 }
 
 const Workload& small_workload() {
-  static const Workload workload = make_workload(small_scene(), {});
+  static const Workload workload = make_workload(small_scene(), {0.08f, 0.02f, 100});
   return workload;
 }
 
@@ -41,6 +41,9 @@ int exit_code_of(std::vector<std::string> arguments) {
   int exit_code = -2;
   return parse_options(static_cast<int>(pointers.size()), pointers.data(), options, exit_code) ? -1 : exit_code;
 }
+
+/// Works on descriptors that are there already.
+bool is_binary(const Stage& stage) { return stage.name == "binarize Shot352" || stage.name == "hamming Shot352"; }
 
 /// Keeps what Google Benchmark reports.
 class Recorder : public benchmark::BenchmarkReporter {
@@ -96,6 +99,17 @@ TEST_CASE("a workload holds what its stages need, and what it says of it is true
   }
   CHECK(w.chosen_neighbors == neighbors);
   CHECK(w.most_neighbors == most);
+  CHECK(w.normal_radius == 0.02f);
+  CHECK(w.normals.size() == w.cloud.size());
+  CHECK(shortshot::has_normals(w.view()));
+  const shortshot::BruteSearch everything{w.view()};
+  std::size_t normal_neighbors = 0;
+  for (std::size_t i = 0; i < w.cloud.size(); ++i) {
+    shortshot::Neighborhood n{};
+    static_cast<void>(everything.gather(shortshot::point(w.view(), i), w.normal_radius, n));
+    normal_neighbors += n.found;
+  }
+  CHECK(w.normal_neighbors == normal_neighbors);
 }
 
 TEST_CASE("a workload that cannot be is refused in the library's words") {
@@ -107,21 +121,22 @@ TEST_CASE("a workload that cannot be is refused in the library's words") {
     CHECK_THROWS_WITH(make_workload(small_scene(), {0.04f, bad, 10}), shortshot::message(shortshot::Status::bad_leaf));
   }
   CHECK_THROWS_WITH(make_workload(small_scene(), {1e-5f, 0.02f, 10}),
-                    "no key point has a frame: is the radius in the cloud's unit?");
+                    "no key point has a frame and normals: is the radius in the cloud's unit?");
 }
 
 TEST_CASE("every build has the same stages, and they all run") {
   const std::vector<StageBuild> builds = build_stages(small_workload());
   REQUIRE(builds.size() == (cpu_has_avx2() ? 2 : 1));
   for (const StageBuild& build : builds) {
-    REQUIRE(build.stages.size() == 15);
+    REQUIRE(build.stages.size() == 22);
     for (std::size_t i = 0; i < build.stages.size(); ++i) {
       const Stage& stage = build.stages[i];
       CAPTURE(stage.name);
       CHECK(stage.name == builds[0].stages[i].name);
       CHECK(stage.neighbors == builds[0].stages[i].neighbors);
       CHECK((stage.points > 0) != (stage.keypoints > 0));
-      CHECK((stage.keypoints > 0) == (stage.neighbors > 0));
+      const bool looks_at_neighbors = stage.points > 0 ? stage.name == "normals" : !is_binary(stage);
+      CHECK((stage.neighbors > 0) == looks_at_neighbors);
       CHECK(stage.run() == shortshot::Status::ok);
       CHECK(stage.run() == shortshot::Status::ok);
     }
@@ -134,10 +149,11 @@ TEST_CASE("a cloud without colours has the stages that need none") {
   scene.rgb.clear();
   const Workload workload = make_workload(std::move(scene), {});
   const std::vector<StageBuild> builds = build_stages(workload);
-  CHECK(builds[0].stages.size() == 10);
+  CHECK(builds[0].stages.size() == 15);
   for (const Stage& stage : builds[0].stages) {
     CAPTURE(stage.name);
     CHECK(stage.name.find("Scsh") == std::string::npos);
+    CHECK(stage.name.find("Cshot") == std::string::npos);
     CHECK(stage.run() == shortshot::Status::ok);
   }
 }
@@ -145,28 +161,33 @@ TEST_CASE("a cloud without colours has the stages that need none") {
 TEST_CASE("benchmarks report time, neighbours and bytes; instructions where the CPU's counter can be read") {
   const InstructionCounter counter;
   register_stages("scene", small_workload(), counter);
-  REQUIRE(exit_code_of({"--benchmark_filter=scene/(kernel_Ssh96|lab)/", "--benchmark_min_time=0.001"}) == -1);
+  REQUIRE(exit_code_of({"--benchmark_filter=scene/(kernel_Shot352|normals|lab|binarize_Shot352)/",
+                        "--benchmark_min_time=0.001"}) == -1);
   Recorder recorder;
   const std::size_t isas = cpu_has_avx2() ? 2 : 1;
-  CHECK(benchmark::RunSpecifiedBenchmarks(&recorder) == 2 * isas);
-  REQUIRE(recorder.runs.size() == 2 * isas);
+  CHECK(benchmark::RunSpecifiedBenchmarks(&recorder) == 4 * isas);
+  REQUIRE(recorder.runs.size() == 4 * isas);
   for (const auto& run : recorder.runs) {
     const std::string name = run.benchmark_name();
     CAPTURE(name);
     CHECK_FALSE(run.error_occurred);
-    const bool lab = name.find("lab") != std::string::npos;
-    const auto value = [&](const char* counter_name) {
+    const auto is = [&](const char* stage) { return name.find(stage) != std::string::npos; };
+    const auto value = [&](const std::string& counter_name) {
       const auto found = run.counters.find(counter_name);
       return found == run.counters.end() ? -1.0 : found->second.value;
     };
+    const bool of_cloud = is("lab") || is("normals");
+    const bool of_neighbors = is("kernel") || is("normals");
     const Workload& w = small_workload();
     const double mean = static_cast<double>(w.chosen_neighbors) / static_cast<double>(w.chosen.size());
-    CHECK(value("neighbours") == (lab ? -1.0 : mean));
-    CHECK(value("bytes") == (lab ? 12.0 * 160 * 120 : 4.0 * 96));
-    CHECK((value("ns/point") > 0.0) == lab);
-    CHECK((value("ns/neighbour") > 0.0) != lab);
-    if (!lab) CHECK(value("ns/keypoint") == doctest::Approx(mean * value("ns/neighbour")));
-    CHECK((value(lab ? "instructions/point" : "instructions/neighbour") > 1.0) == counter.counts());
+    CHECK(value("neighbours") == (is("kernel") ? mean : -1.0));
+    CHECK(value("bytes") == (of_cloud ? 12.0 * 160 * 120 : is("kernel") ? 4.0 * 352 : 44.0));
+    CHECK((value("ns/point") > 0.0) == of_cloud);
+    CHECK((value("ns/keypoint") > 0.0) != of_cloud);
+    CHECK((value("ns/neighbour") > 0.0) == of_neighbors);
+    if (is("kernel")) CHECK(value("ns/keypoint") == doctest::Approx(mean * value("ns/neighbour")));
+    CHECK((value(of_cloud ? "instructions/point" : "instructions/keypoint") > 1.0) == counter.counts());
+    CHECK((value("instructions/neighbour") > 1.0) == (counter.counts() && of_neighbors));
   }
 }
 

@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "demo/run.hpp"
 #include "golden/neighbors.hpp"
+#include "io/view_of_cloud.hpp"
 #include "peers/naive.hpp"
 #include "peers/oracle_difference.hpp"
 #include "peers/task.hpp"

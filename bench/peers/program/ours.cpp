@@ -8,8 +8,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "demo/run.hpp"
 #include "golden/neighbors.hpp"
+#include "io/view_of_cloud.hpp"
 #include "peers/suite.hpp"
 #include "peers/task.hpp"
 #include "shortshot/search/nanoflann.hpp"
