@@ -46,6 +46,7 @@ Task make_task(const std::string& name, const RgbdCloud& cloud, float radius, fl
   Task task;
   task.cloud = name;
   task.points = valid_points(cloud);
+  task.image = cloud;
   task.radius = radius;
   const shortshot::CloudView view = view_of_cloud(task.points);
   require(shortshot::sample_uniform(view, leaf, task.keypoints));

@@ -13,12 +13,13 @@ namespace shortshot_bench::peers {
 /// Fixed, because PCL builds a tree in each call: the fewer key points, the worse it would look.
 inline constexpr std::size_t max_keypoints = 1000;
 
-/// Metres, of the normals of a whole cloud.
+/// Metres, of the normals of all points.
 inline constexpr float normal_radius = 0.01f;
 
 struct Task {
   std::string cloud;                     // the file's name without its folder
-  RgbdCloud points;                      // with colours, and none without a position
+  RgbdCloud points;                      // with colours, and none without a position: a list
+  RgbdCloud image;                       // the same as it was read: with NaN where nothing was measured
   float radius = 0.0f;                   // metres
   std::vector<std::uint32_t> keypoints;  // max_keypoints of the uniform sampling, or all if there are fewer
   double mean_neighbors = 0.0;           // of a key point, itself included

@@ -116,7 +116,7 @@ class NormalEstimator {
       y_[used] = p.y;
       z_[used] = p.z;
       if (++used < group) continue;
-      estimate_group();
+      estimate_part(0, group);
       used = 0;
     }
     for (std::size_t k = 0; k < used; ++k) estimate_alone(k);
@@ -124,7 +124,8 @@ class NormalEstimator {
 
  private:
   static constexpr std::size_t group = 16;
-  static_assert(group % simd::lanes == 0, "whole registers");
+  static constexpr std::size_t smallest_part = 8;
+  static_assert(smallest_part % simd::lanes == 0, "whole registers");
 
   /// The k-th point, where four rows of an image are walked at once: a group then lies in a square.
   [[nodiscard]] std::size_t in_zigzag(std::size_t k) const noexcept {
@@ -134,12 +135,19 @@ class NormalEstimator {
     return cloud_.size - first < rows * row_ ? k : first + (k - first) / rows + k % rows * row_;
   }
 
-  void estimate_group() {
+  /// Points [first, first + count) of the group, or each half of them if they lie too far apart.
+  void estimate_part(std::size_t first, std::size_t count) {
     Normal found[group] = {};
     Neighborhood candidates;
     Radius wide = radius_;
-    if (gather_for_all(candidates, wide)) estimate_together(candidates, wide, found);
-    for (std::size_t k = 0; k < group; ++k) {
+    if (gather_for_all(first, count, candidates, wide)) {
+      estimate_together(first, count, candidates, wide, found);
+    } else if (count > smallest_part) {
+      estimate_part(first, count / 2);
+      estimate_part(first + count / 2, count / 2);
+      return;
+    }
+    for (std::size_t k = first; k < first + count; ++k) {
       if (is_zero(found[k])) {
         estimate_alone(k);
       } else {
@@ -148,42 +156,45 @@ class NormalEstimator {
     }
   }
 
-  /// Candidates for the neighbours of all points of the group, and the radius that it takes; false if it is not worth
-  /// while.
-  [[nodiscard]] bool gather_for_all(Neighborhood& candidates, Radius& wide) {
-    const auto middle = [](const float(&v)[group]) {
-      const auto ends = std::minmax_element(v, v + group);
+  /// Candidates for the neighbours of all these points, and the radius that it takes; false if it is not worth while.
+  [[nodiscard]] bool gather_for_all(std::size_t first, std::size_t count, Neighborhood& candidates, Radius& wide) {
+    const auto middle = [=](const float(&v)[group]) {
+      const auto ends = std::minmax_element(v + first, v + first + count);
       return 0.5f * (*ends.first + *ends.second);
     };
     const Point center{middle(x_), middle(y_), middle(z_)};
     float farthest_d2 = 0.0f;
-    for (std::size_t k = 0; k < group; ++k) {
+    for (std::size_t k = first; k < first + count; ++k) {
       const float dx = x_[k] - center.x;
       const float dy = y_[k] - center.y;
       const float dz = z_[k] - center.z;
       farthest_d2 = std::max(farthest_d2, rounded(dx * dx) + rounded(dy * dy) + rounded(dz * dz));
     }
     wide = Radius((radius_.value + simd::root(farthest_d2)) * 1.00001f);  // more than all roundings
-    return wide.value < 3.0f * radius_.value && check(wide) == Status::ok &&
+    const float widest = (count > smallest_part ? 1.75f : 3.0f) * radius_.value;
+    return wide.value < widest && check(wide) == Status::ok &&
            workspace_.gather(search_, center, wide, candidates) == Status::ok;
   }
 
-  /// Normals of the group; zeros for those that need to be looked at alone.
-  void estimate_together(const Neighborhood& candidates, Radius wide, Normal (&found)[group]) const noexcept {
+  /// Normals of these points; zeros for those that need to be looked at alone.
+  void estimate_together(std::size_t first, std::size_t count, const Neighborhood& candidates, Radius wide,
+                         Normal (&found)[group]) const noexcept {
     const MomentScale scale = moment_scale(candidates.size, wide.value);
     Moments shares[group] = {};
     CandidateChunk chunk;
-    for (std::uint32_t first = 0; first < candidates.size; first += CandidateChunk::most) {
-      chunk.fill(cloud_, candidates, first, scale);
-      for (std::size_t k = 0; k < group; ++k) chunk.add_neighbors({x_[k], y_[k], z_[k]}, radius_, shares[k]);
+    for (std::uint32_t i = 0; i < candidates.size; i += CandidateChunk::most) {
+      chunk.fill(cloud_, candidates, i, scale);
+      for (std::size_t k = first; k < first + count; ++k) {
+        chunk.add_neighbors({x_[k], y_[k], z_[k]}, radius_, shares[k]);
+      }
     }
-    for (std::size_t first = 0; first < group; first += simd::lanes) {
-      const Moments moments = totals(shares + first);
-      const VectorLanes towards{simd::all(viewpoint_.x) - simd::load(x_ + first),
-                                simd::all(viewpoint_.y) - simd::load(y_ + first),
-                                simd::all(viewpoint_.z) - simd::load(z_ + first)};
+    for (std::size_t k = first; k < first + count; k += simd::lanes) {
+      const Moments moments = totals(shares + k);
+      const VectorLanes towards{simd::all(viewpoint_.x) - simd::load(x_ + k),
+                                simd::all(viewpoint_.y) - simd::load(y_ + k),
+                                simd::all(viewpoint_.z) - simd::load(z_ + k)};
       const VectorLanes normals = keep(is_fine(moments, scale), normals_of(moments, scale, towards));
-      for (std::size_t lane = 0; lane < simd::lanes; ++lane) found[first + lane] = normal_in(normals, lane);
+      for (std::size_t lane = 0; lane < simd::lanes; ++lane) found[k + lane] = normal_in(normals, lane);
     }
   }
 

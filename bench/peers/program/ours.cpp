@@ -60,10 +60,9 @@ struct State {
 };
 
 /// By the grid that serves their radius best.
-void estimate_normals(State& state) {
-  state.normal_grid.build(state.view, normal_radius);
-  require(ss::estimate_normals(state.view, *state.normal_grid, normal_radius, state.normals));
-  state.view = ss::with_normals(state.view, state.normals.data());
+void estimate_normals(State& state, const ss::CloudView& view) {
+  state.normal_grid.build(view, normal_radius);
+  require(ss::estimate_normals(view, *state.normal_grid, normal_radius, state.normals));
 }
 
 template <class LabRule>
@@ -172,7 +171,11 @@ Suite PEERS_SUITE(const Task& task) {
   add_descriptor<ss::Scsh336>(suite, state, grid, tree, "SCSH-336");
   add_descriptor<ss::Scsh696>(suite, state, grid, tree, "SCSH-696");
   // PCL's own descriptors, defects included, so that both sides compute the same.
-  const std::size_t normals = suite.add("normals", [=] { estimate_normals(*state); });
+  suite.add("normals of the image", [=] { estimate_normals(*state, view_of_cloud(state->task.image)); });
+  const std::size_t normals = suite.add("normals", [=] {
+    estimate_normals(*state, state->view);
+    state->view = ss::with_normals(state->view, state->normals.data());
+  });
   suite.add("Lab, PCL's rule", [=] { convert_colors<ss::PclCshot1344::LabRule>(*state); });
   add_contender<ss::PclShot352>(suite, state, &State::grid, {grid, normals}, "SHOT-352");
   add_contender<ss::PclCshot1344>(suite, state, &State::grid, {grid, normals}, "CSHOT-1344");
