@@ -81,10 +81,12 @@ std::string headline(const std::string& peers_path, const std::vector<JsonRow>& 
   const JsonRow& first = peers.front();
   Table table({"one thread, -O2 / -O2 -mavx2", "us per key point", "peer's", "times faster", "whole frame",
                "extra memory, peer's"});
-  const std::array<std::array<const char*, 2>, 4> comparisons{{{"SCSH-336", "PCL SHOTColor"},
+  const std::array<std::array<const char*, 2>, 6> comparisons{{{"SCSH-336", "PCL SHOTColor"},
                                                                {"SCSH-336", "naive double"},
                                                                {"SSH-32", "PCL SHOT"},
-                                                               {"SSH-32", "naive double"}}};
+                                                               {"SSH-32", "naive double"},
+                                                               {"SHOT-352", "PCL SHOT"},
+                                                               {"CSHOT-1344", "PCL SHOTColor"}}};
   for (const auto& [descriptor, peer] : comparisons) {
     const Key key{first.text("cloud"), descriptor, peer, "grid"};
     const Pair pair{find(peers, key, "O2"), find(peers, key, "avx2")};

@@ -26,7 +26,8 @@ inline std::string peers() {
   std::string list;
   double ratio = 5.0;
   for (const auto& [descriptor, peer] : {std::pair{"SCSH-336", "PCL SHOTColor"}, std::pair{"SCSH-336", "naive double"},
-                                         std::pair{"SSH-32", "PCL SHOT"}, std::pair{"SSH-32", "naive double"}}) {
+                                         std::pair{"SSH-32", "PCL SHOT"}, std::pair{"SSH-32", "naive double"},
+                                         std::pair{"SHOT-352", "PCL SHOT"}, std::pair{"CSHOT-1344", "PCL SHOTColor"}}) {
     for (const char* build : {"O2", "avx2"})
       list += (list.empty() ? "[" : ", ") + comparison(descriptor, peer, build, ratio *= 2.0);
   }

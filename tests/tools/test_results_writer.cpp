@@ -78,6 +78,7 @@ TEST_CASE("the README's headline: both builds next to each other, and where the 
   CHECK(has(readme.generated,
             "| SCSH-336 against PCL SHOTColor | 36.0 / 18.0 | 360 | 10x / 20x | 15x / 30x | 5.2 MB, 31.4 KB |\n"));
   CHECK(has(readme.generated, "| SSH-32 against naive double |"));
+  CHECK(has(readme.generated, "| CSHOT-1344 against PCL SHOTColor |"));
   CHECK(has(readme.generated, "desk.pcd: 170000 points, 1000 key points, R = 0.04 m, 831 neighbours"));
   CHECK(has(readme.generated, "Imaginary 1, GCC 12"));
 }
