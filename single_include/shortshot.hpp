@@ -1063,6 +1063,13 @@ namespace detail {
   return {r, r + step, r + 2 * step, stride};
 }
 
+/// A view of nothing, and of more than nothing: bad_view everywhere.
+[[nodiscard]] inline CloudView unusable_view() noexcept {
+  CloudView view{};
+  view.size = 1;
+  return view;
+}
+
 }  // namespace detail
 
 /// View of `count` points x y z (floats). `stride_bytes` is the distance between points.
@@ -1391,11 +1398,8 @@ template <class Container, class Normals, class = detail::IfContainer<Normals>>
   static_assert(detail::HasNormal<Struct>::value,
                 "view_of() supports normals with float members normal_x, normal_y and normal_z");
   CloudView view = view_of(cloud);
+  if (std::size(structs) != view.size) return detail::unusable_view();
   view.normals = detail::normals_of(std::data(structs), std::size(structs));
-  if (std::size(structs) != view.size) {  // a view of nothing, and of more than nothing: bad_view everywhere
-    view.points = {};
-    view.size = 1;
-  }
   return view;
 }
 
@@ -2752,6 +2756,21 @@ struct Offsets {
   return static_cast<std::uint32_t>(sum(counts)) - (i - n.size);  // without what fills up the last register
 }
 
+namespace detail {
+
+/// What every estimate from a neighbourhood asks of its arguments; `view` gets the vector to the viewpoint, if there is
+/// one.
+[[nodiscard]] inline Status check_estimate(const Neighborhood& n, Radius radius, const float* towards_viewpoint,
+                                           float (&view)[3]) noexcept {
+  const Status usable = check(radius);
+  if (usable != Status::ok) return usable;
+  if (n.size > max_neighbors) return Status::too_many_neighbors;
+  for (int k = 0; k < 3 && towards_viewpoint != nullptr; ++k) view[k] = towards_viewpoint[k];
+  return math::is_finite(view) ? Status::ok : Status::bad_viewpoint;
+}
+
+}  // namespace detail
+
 /// Offer one point of the cloud to the neighbourhood: THE membership rule, for every search. A point is a neighbour if
 /// its float squared distance is strictly below `radius_squared`; written so that NaN is refused.
 inline void offer(Neighborhood& out, const Point& p, std::uint32_t index, const Point& center,
@@ -3200,12 +3219,9 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& c
 [[nodiscard]] inline Status estimate_frame(const Neighborhood& n, Radius radius, Frame& frame,
                                            const float* towards_viewpoint = nullptr) noexcept {
   frame = Frame{};
-  const Status usable = check(radius);
-  if (usable != Status::ok) return usable;
-  if (n.size > max_neighbors) return Status::too_many_neighbors;
   float view[3] = {};
-  for (int k = 0; k < 3 && towards_viewpoint != nullptr; ++k) view[k] = towards_viewpoint[k];
-  if (!math::is_finite(view)) return Status::bad_viewpoint;
+  const Status usable = detail::check_estimate(n, radius, towards_viewpoint, view);
+  if (usable != Status::ok) return usable;
   const detail::Census census = detail::take_census(n, radius);
   if (census.members < min_frame_neighbors) return Status::too_few_neighbors;
 
@@ -3714,9 +3730,9 @@ template <int Size>
 ///            come from a search, d2 must be that of dx, dy and dz, and the indices must be ones that `colors` and
 ///            `normals` have
 /// `colors`   a source of Lab by index (RgbColors, LabColors, your own like them), or NoColors if D needs none
-/// `normals`  CloudNormals, or NoNormals if D needs none; a neighbour whose normal is not finite is left out
-/// `frame`    an orthonormal frame: estimate_frame(), or one you know
-/// `out`      D::size floats: the parts of D in order, L2 norm 1
+/// `normals`  CloudNormals, or NoNormals; not looked at if D needs none; a neighbour whose normal is not finite is left
+/// out `frame`    an orthonormal frame: estimate_frame(), or one you know `out`      D::size floats: the parts of D in
+/// order, L2 norm 1
 ///
 /// Source: SSH and SCSH: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code.
 /// SHOT and CSHOT: PCL 1.13's SHOTEstimation and SHOTColorEstimation. The rules are in cells.hpp and voting.hpp.
@@ -3925,11 +3941,9 @@ struct MomentScale {
   float scale;
 };
 
-/// The finest for `n` points that are no farther than `farthest`: a power of two, terms of at most 22 bits (what
-/// simd::round_to_int() can take), sums below 2^31.
+/// The finest for `n` points that are no farther than `farthest`.
 [[nodiscard]] inline MomentScale moment_scale(std::uint32_t n, float farthest) noexcept {
-  const float room = 1073741824.0f / static_cast<float>(n);
-  return {1.0f / farthest, math::power_of_two_below(room < 4194304.0f ? room : 4194304.0f)};
+  return {1.0f / farthest, fixed_point_scale(n, 0)};
 }
 
 /// How far the members reach; 1e-19 m at least: below that, squares are lost to underflow.
@@ -3998,19 +4012,14 @@ template <class TermOf>
   return enough & (to_float(m.of[3] + m.of[6] + m.of[8]) > to_float(m.members) * simd::all(0.0625f * by.scale));
 }
 
-/// A vector in each lane.
-struct VectorLanes {
-  simd::F32 x, y, z;
-};
-
-[[nodiscard]] inline VectorLanes keep(simd::Mask m, const VectorLanes& v) noexcept {
+[[nodiscard]] inline PointLanes keep(simd::Mask m, const PointLanes& v) noexcept {
   return {keep(m, v.x), keep(m, v.y), keep(m, v.z)};
 }
 
 /// Unit vectors along which the members scatter least about their centroid, turned `towards` something; zeros where
 /// they lie on a line, or in one place.
-[[nodiscard]] inline VectorLanes normals_of(const Moments& m, const MomentScale& by,
-                                            const VectorLanes& towards) noexcept {
+[[nodiscard]] inline PointLanes normals_of(const Moments& m, const MomentScale& by,
+                                           const PointLanes& towards) noexcept {
   using simd::all;
   using simd::F32;
   const auto moment = [&m](int kind) { return to_float(m.of[kind]); };
@@ -4030,16 +4039,18 @@ struct VectorLanes {
   const F32(&axis)[3] = eigen.vectors[0];
   const simd::Mask away = (axis[0] * towards.x + axis[2] * towards.z) + axis[1] * towards.y < all(0.0f);
   const auto turned = [&](int k) { return negate(away, axis[k]) + all(0.0f); };  // no negative zeros
-  return keep(flat, VectorLanes{turned(0), turned(1), turned(2)});
+  return keep(flat, PointLanes{turned(0), turned(1), turned(2)});
 }
 
-/// The normal in one lane.
-[[nodiscard]] inline Normal normal_in(const VectorLanes& v, std::size_t lane) noexcept {
+/// One normal from each lane.
+inline void store(Normal* normals, const PointLanes& v) noexcept {
   float components[3][simd::lanes];
   simd::store(components[0], v.x);
   simd::store(components[1], v.y);
   simd::store(components[2], v.z);
-  return {components[0][lane], components[1][lane], components[2][lane]};
+  for (std::size_t lane = 0; lane < simd::lanes; ++lane) {
+    normals[lane] = {components[0][lane], components[1][lane], components[2][lane]};
+  }
 }
 
 [[nodiscard]] inline bool is_zero(const Normal& n) noexcept { return n.x == 0.0f && n.y == 0.0f && n.z == 0.0f; }
@@ -4061,25 +4072,24 @@ struct VectorLanes {
 [[nodiscard]] inline Status estimate_normal(const Neighborhood& n, Radius radius, const float* towards_viewpoint,
                                             Normal& normal) noexcept {
   normal = Normal{};
-  const Status usable = check(radius);
-  if (usable != Status::ok) return usable;
-  if (n.size > max_neighbors) return Status::too_many_neighbors;
   float view[3] = {};
-  for (int k = 0; k < 3 && towards_viewpoint != nullptr; ++k) view[k] = towards_viewpoint[k];
-  if (!math::is_finite(view)) return Status::bad_viewpoint;
+  const Status usable = detail::check_estimate(n, radius, towards_viewpoint, view);
+  if (usable != Status::ok) return usable;
 
-  const detail::VectorLanes towards{simd::all(view[0]), simd::all(view[1]), simd::all(view[2])};
+  const PointLanes towards{simd::all(view[0]), simd::all(view[1]), simd::all(view[2])};
   const std::uint32_t members = count_within(n, radius);
   if (members < min_normal_neighbors) return Status::too_few_neighbors;
+  // In units of the radius; or, where the members fill too little of it, of the farthest one's distance.
   detail::MomentScale scale = detail::moment_scale(members, radius.value);
   detail::Moments moments = detail::moments_of(n, radius, scale);
-  if (any(detail::is_fine(moments, scale))) {
-    normal = detail::normal_in(detail::normals_of(moments, scale, towards), 0);
-    if (!detail::is_zero(normal)) return Status::ok;
+  Normal found[simd::lanes] = {};
+  if (any(detail::is_fine(moments, scale))) detail::store(found, detail::normals_of(moments, scale, towards));
+  if (detail::is_zero(found[0])) {
+    scale = detail::moment_scale(members, detail::farthest_member(n, radius));
+    moments = detail::moments_of(n, radius, scale);
+    detail::store(found, detail::normals_of(moments, scale, towards));
   }
-  scale = detail::moment_scale(members, detail::farthest_member(n, radius));
-  moments = detail::moments_of(n, radius, scale);
-  normal = detail::normal_in(detail::normals_of(moments, scale, towards), 0);
+  normal = found[0];
   return detail::is_zero(normal) ? Status::ambiguous_frame : Status::ok;
 }
 
@@ -5273,11 +5283,10 @@ class NormalEstimator {
     }
     for (std::size_t k = first; k < first + count; k += simd::lanes) {
       const Moments moments = totals(shares + k);
-      const VectorLanes towards{simd::all(viewpoint_.x) - simd::load(x_ + k),
-                                simd::all(viewpoint_.y) - simd::load(y_ + k),
-                                simd::all(viewpoint_.z) - simd::load(z_ + k)};
-      const VectorLanes normals = keep(is_fine(moments, scale), normals_of(moments, scale, towards));
-      for (std::size_t lane = 0; lane < simd::lanes; ++lane) found[k + lane] = normal_in(normals, lane);
+      const PointLanes towards{simd::all(viewpoint_.x) - simd::load(x_ + k),
+                               simd::all(viewpoint_.y) - simd::load(y_ + k),
+                               simd::all(viewpoint_.z) - simd::load(z_ + k)};
+      store(found + k, keep(is_fine(moments, scale), normals_of(moments, scale, towards)));
     }
   }
 
@@ -5768,10 +5777,7 @@ void add_channel(CloudView& view, const Channel& matrix) noexcept {
   } else {
     view.normals = float3_channel(matrix.data(), step, stride);
   }
-  if (Rows::count(matrix) != view.size) {  // a view of nothing, and of more than nothing: bad_view everywhere
-    view.points = {};
-    view.size = 1;
-  }
+  if (Rows::count(matrix) != view.size) view = unusable_view();
 }
 
 }  // namespace detail

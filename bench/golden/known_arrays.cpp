@@ -14,18 +14,13 @@ template <class D>
 shortshot::Status describe_by(const shortshot::Neighborhood& n, const shortshot::CloudView& cloud,
                               shortshot::Rgb key_color, const shortshot::Frame& frame, shortshot::Radius radius,
                               float* out) {
-  const auto describe_with = [&](const auto& colors) {
-    if constexpr (D::needs_normals) {
-      return shortshot::describe<D>(n, colors, shortshot::CloudNormals{cloud}, frame, radius, out);
-    } else {
-      return shortshot::describe<D>(n, colors, frame, radius, out);
-    }
-  };
+  const shortshot::CloudNormals normals{cloud};
   if constexpr (D::needs_colors) {
     using Rule = typename D::LabRule;
-    return describe_with(shortshot::RgbColors<Rule>{cloud, shortshot::to_lab<Rule>(key_color)});
+    const shortshot::RgbColors<Rule> colors{cloud, shortshot::to_lab<Rule>(key_color)};
+    return shortshot::describe<D>(n, colors, normals, frame, radius, out);
   } else {
-    return describe_with(shortshot::NoColors{});
+    return shortshot::describe<D>(n, shortshot::NoColors{}, normals, frame, radius, out);
   }
 }
 

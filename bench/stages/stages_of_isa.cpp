@@ -226,11 +226,7 @@ class StageList {
     if constexpr (D::needs_colors) lab = lab_by<typename D::LabRule>();
     return [lab, view = workload_.view()](const GatheredKeyPoint& k, float radius, float* out) {
       const auto run = [&](const auto& colors) {
-        if constexpr (D::needs_normals) {
-          return kernel<D>(k.neighborhood, colors, shortshot::CloudNormals{view}, k.frame, radius, out);
-        } else {
-          return kernel<D>(k.neighborhood, colors, shortshot::NoNormals{}, k.frame, radius, out);
-        }
+        return kernel<D>(k.neighborhood, colors, shortshot::CloudNormals{view}, k.frame, radius, out);
       };
       if constexpr (D::needs_colors) {
         return run(shortshot::LabColors{lab->data(), shortshot::to_lab<typename D::LabRule>(k.key.color)});

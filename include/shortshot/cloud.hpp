@@ -76,6 +76,13 @@ namespace detail {
   return {r, r + step, r + 2 * step, stride};
 }
 
+/// A view of nothing, and of more than nothing: bad_view everywhere.
+[[nodiscard]] inline CloudView unusable_view() noexcept {
+  CloudView view{};
+  view.size = 1;
+  return view;
+}
+
 }  // namespace detail
 
 /// View of `count` points x y z (floats). `stride_bytes` is the distance between points.

@@ -73,9 +73,9 @@ template <int Size>
 ///            come from a search, d2 must be that of dx, dy and dz, and the indices must be ones that `colors` and
 ///            `normals` have
 /// `colors`   a source of Lab by index (RgbColors, LabColors, your own like them), or NoColors if D needs none
-/// `normals`  CloudNormals, or NoNormals if D needs none; a neighbour whose normal is not finite is left out
-/// `frame`    an orthonormal frame: estimate_frame(), or one you know
-/// `out`      D::size floats: the parts of D in order, L2 norm 1
+/// `normals`  CloudNormals, or NoNormals; not looked at if D needs none; a neighbour whose normal is not finite is left
+/// out `frame`    an orthonormal frame: estimate_frame(), or one you know `out`      D::size floats: the parts of D in
+/// order, L2 norm 1
 ///
 /// Source: SSH and SCSH: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code.
 /// SHOT and CSHOT: PCL 1.13's SHOTEstimation and SHOTColorEstimation. The rules are in cells.hpp and voting.hpp.

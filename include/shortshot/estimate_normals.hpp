@@ -190,11 +190,10 @@ class NormalEstimator {
     }
     for (std::size_t k = first; k < first + count; k += simd::lanes) {
       const Moments moments = totals(shares + k);
-      const VectorLanes towards{simd::all(viewpoint_.x) - simd::load(x_ + k),
-                                simd::all(viewpoint_.y) - simd::load(y_ + k),
-                                simd::all(viewpoint_.z) - simd::load(z_ + k)};
-      const VectorLanes normals = keep(is_fine(moments, scale), normals_of(moments, scale, towards));
-      for (std::size_t lane = 0; lane < simd::lanes; ++lane) found[k + lane] = normal_in(normals, lane);
+      const PointLanes towards{simd::all(viewpoint_.x) - simd::load(x_ + k),
+                               simd::all(viewpoint_.y) - simd::load(y_ + k),
+                               simd::all(viewpoint_.z) - simd::load(z_ + k)};
+      store(found + k, keep(is_fine(moments, scale), normals_of(moments, scale, towards)));
     }
   }
 

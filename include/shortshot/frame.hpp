@@ -190,12 +190,9 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& c
 [[nodiscard]] inline Status estimate_frame(const Neighborhood& n, Radius radius, Frame& frame,
                                            const float* towards_viewpoint = nullptr) noexcept {
   frame = Frame{};
-  const Status usable = check(radius);
-  if (usable != Status::ok) return usable;
-  if (n.size > max_neighbors) return Status::too_many_neighbors;
   float view[3] = {};
-  for (int k = 0; k < 3 && towards_viewpoint != nullptr; ++k) view[k] = towards_viewpoint[k];
-  if (!math::is_finite(view)) return Status::bad_viewpoint;
+  const Status usable = detail::check_estimate(n, radius, towards_viewpoint, view);
+  if (usable != Status::ok) return usable;
   const detail::Census census = detail::take_census(n, radius);
   if (census.members < min_frame_neighbors) return Status::too_few_neighbors;
 

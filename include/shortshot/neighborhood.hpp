@@ -109,6 +109,21 @@ struct Offsets {
   return static_cast<std::uint32_t>(sum(counts)) - (i - n.size);  // without what fills up the last register
 }
 
+namespace detail {
+
+/// What every estimate from a neighbourhood asks of its arguments; `view` gets the vector to the viewpoint, if there is
+/// one.
+[[nodiscard]] inline Status check_estimate(const Neighborhood& n, Radius radius, const float* towards_viewpoint,
+                                           float (&view)[3]) noexcept {
+  const Status usable = check(radius);
+  if (usable != Status::ok) return usable;
+  if (n.size > max_neighbors) return Status::too_many_neighbors;
+  for (int k = 0; k < 3 && towards_viewpoint != nullptr; ++k) view[k] = towards_viewpoint[k];
+  return math::is_finite(view) ? Status::ok : Status::bad_viewpoint;
+}
+
+}  // namespace detail
+
 /// Offer one point of the cloud to the neighbourhood: THE membership rule, for every search. A point is a neighbour if
 /// its float squared distance is strictly below `radius_squared`; written so that NaN is refused.
 inline void offer(Neighborhood& out, const Point& p, std::uint32_t index, const Point& center,

@@ -6,7 +6,7 @@
 
 #include "cloud.hpp"
 #include "config.hpp"
-#include "math.hpp"
+#include "fixed_point.hpp"
 #include "neighborhood.hpp"
 #include "simd.hpp"
 #include "status.hpp"
@@ -28,11 +28,9 @@ struct MomentScale {
   float scale;
 };
 
-/// The finest for `n` points that are no farther than `farthest`: a power of two, terms of at most 22 bits (what
-/// simd::round_to_int() can take), sums below 2^31.
+/// The finest for `n` points that are no farther than `farthest`.
 [[nodiscard]] inline MomentScale moment_scale(std::uint32_t n, float farthest) noexcept {
-  const float room = 1073741824.0f / static_cast<float>(n);
-  return {1.0f / farthest, math::power_of_two_below(room < 4194304.0f ? room : 4194304.0f)};
+  return {1.0f / farthest, fixed_point_scale(n, 0)};
 }
 
 /// How far the members reach; 1e-19 m at least: below that, squares are lost to underflow.
@@ -101,19 +99,14 @@ template <class TermOf>
   return enough & (to_float(m.of[3] + m.of[6] + m.of[8]) > to_float(m.members) * simd::all(0.0625f * by.scale));
 }
 
-/// A vector in each lane.
-struct VectorLanes {
-  simd::F32 x, y, z;
-};
-
-[[nodiscard]] inline VectorLanes keep(simd::Mask m, const VectorLanes& v) noexcept {
+[[nodiscard]] inline PointLanes keep(simd::Mask m, const PointLanes& v) noexcept {
   return {keep(m, v.x), keep(m, v.y), keep(m, v.z)};
 }
 
 /// Unit vectors along which the members scatter least about their centroid, turned `towards` something; zeros where
 /// they lie on a line, or in one place.
-[[nodiscard]] inline VectorLanes normals_of(const Moments& m, const MomentScale& by,
-                                            const VectorLanes& towards) noexcept {
+[[nodiscard]] inline PointLanes normals_of(const Moments& m, const MomentScale& by,
+                                           const PointLanes& towards) noexcept {
   using simd::all;
   using simd::F32;
   const auto moment = [&m](int kind) { return to_float(m.of[kind]); };
@@ -133,16 +126,18 @@ struct VectorLanes {
   const F32(&axis)[3] = eigen.vectors[0];
   const simd::Mask away = (axis[0] * towards.x + axis[2] * towards.z) + axis[1] * towards.y < all(0.0f);
   const auto turned = [&](int k) { return negate(away, axis[k]) + all(0.0f); };  // no negative zeros
-  return keep(flat, VectorLanes{turned(0), turned(1), turned(2)});
+  return keep(flat, PointLanes{turned(0), turned(1), turned(2)});
 }
 
-/// The normal in one lane.
-[[nodiscard]] inline Normal normal_in(const VectorLanes& v, std::size_t lane) noexcept {
+/// One normal from each lane.
+inline void store(Normal* normals, const PointLanes& v) noexcept {
   float components[3][simd::lanes];
   simd::store(components[0], v.x);
   simd::store(components[1], v.y);
   simd::store(components[2], v.z);
-  return {components[0][lane], components[1][lane], components[2][lane]};
+  for (std::size_t lane = 0; lane < simd::lanes; ++lane) {
+    normals[lane] = {components[0][lane], components[1][lane], components[2][lane]};
+  }
 }
 
 [[nodiscard]] inline bool is_zero(const Normal& n) noexcept { return n.x == 0.0f && n.y == 0.0f && n.z == 0.0f; }
@@ -164,25 +159,24 @@ struct VectorLanes {
 [[nodiscard]] inline Status estimate_normal(const Neighborhood& n, Radius radius, const float* towards_viewpoint,
                                             Normal& normal) noexcept {
   normal = Normal{};
-  const Status usable = check(radius);
-  if (usable != Status::ok) return usable;
-  if (n.size > max_neighbors) return Status::too_many_neighbors;
   float view[3] = {};
-  for (int k = 0; k < 3 && towards_viewpoint != nullptr; ++k) view[k] = towards_viewpoint[k];
-  if (!math::is_finite(view)) return Status::bad_viewpoint;
+  const Status usable = detail::check_estimate(n, radius, towards_viewpoint, view);
+  if (usable != Status::ok) return usable;
 
-  const detail::VectorLanes towards{simd::all(view[0]), simd::all(view[1]), simd::all(view[2])};
+  const PointLanes towards{simd::all(view[0]), simd::all(view[1]), simd::all(view[2])};
   const std::uint32_t members = count_within(n, radius);
   if (members < min_normal_neighbors) return Status::too_few_neighbors;
+  // In units of the radius; or, where the members fill too little of it, of the farthest one's distance.
   detail::MomentScale scale = detail::moment_scale(members, radius.value);
   detail::Moments moments = detail::moments_of(n, radius, scale);
-  if (any(detail::is_fine(moments, scale))) {
-    normal = detail::normal_in(detail::normals_of(moments, scale, towards), 0);
-    if (!detail::is_zero(normal)) return Status::ok;
+  Normal found[simd::lanes] = {};
+  if (any(detail::is_fine(moments, scale))) detail::store(found, detail::normals_of(moments, scale, towards));
+  if (detail::is_zero(found[0])) {
+    scale = detail::moment_scale(members, detail::farthest_member(n, radius));
+    moments = detail::moments_of(n, radius, scale);
+    detail::store(found, detail::normals_of(moments, scale, towards));
   }
-  scale = detail::moment_scale(members, detail::farthest_member(n, radius));
-  moments = detail::moments_of(n, radius, scale);
-  normal = detail::normal_in(detail::normals_of(moments, scale, towards), 0);
+  normal = found[0];
   return detail::is_zero(normal) ? Status::ambiguous_frame : Status::ok;
 }
 

@@ -87,25 +87,16 @@ auto colors_for(const State& state, std::uint32_t key) {
   }
 }
 
-template <class D>
-auto normals_for(const State& state) {
-  if constexpr (D::needs_normals) {
-    return ss::CloudNormals{state.view};
-  } else {
-    return ss::NoNormals{};
-  }
-}
-
 /// Search, frame and kernel of each key point; normals and the cloud's colours, by D's rule, are there already.
 template <class D, class Search>
 void describe_all(State& state, const Search& search, ss::Features<D>& features) {
+  const ss::CloudNormals normals{state.view};  // looked at only if D needs them
   float* row = features.values.data();
   for (const std::uint32_t key : state.task.keypoints) {
     const ss::Neighborhood& n = state.neighbors.gather(search, ss::point(state.view, key), state.task.radius);
     ss::Frame frame;
     if (ss::estimate_frame(n, state.task.radius, frame) == ss::Status::ok) {
-      static_cast<void>(
-          ss::describe<D>(n, colors_for<D>(state, key), normals_for<D>(state), frame, state.task.radius, row));
+      static_cast<void>(ss::describe<D>(n, colors_for<D>(state, key), normals, frame, state.task.radius, row));
     }
     row += D::size;
   }

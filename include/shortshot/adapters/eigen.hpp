@@ -56,10 +56,7 @@ void add_channel(CloudView& view, const Channel& matrix) noexcept {
   } else {
     view.normals = float3_channel(matrix.data(), step, stride);
   }
-  if (Rows::count(matrix) != view.size) {  // a view of nothing, and of more than nothing: bad_view everywhere
-    view.points = {};
-    view.size = 1;
-  }
+  if (Rows::count(matrix) != view.size) view = unusable_view();
 }
 
 }  // namespace detail

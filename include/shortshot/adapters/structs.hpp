@@ -107,11 +107,8 @@ template <class Container, class Normals, class = detail::IfContainer<Normals>>
   static_assert(detail::HasNormal<Struct>::value,
                 "view_of() supports normals with float members normal_x, normal_y and normal_z");
   CloudView view = view_of(cloud);
+  if (std::size(structs) != view.size) return detail::unusable_view();
   view.normals = detail::normals_of(std::data(structs), std::size(structs));
-  if (std::size(structs) != view.size) {  // a view of nothing, and of more than nothing: bad_view everywhere
-    view.points = {};
-    view.size = 1;
-  }
   return view;
 }
 
