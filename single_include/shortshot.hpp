@@ -18,7 +18,7 @@
 
 // shortshot/cloud.hpp: the only door for point clouds. A CloudView borrows the user's own memory, whatever its layout.
 
-// shortshot/config.hpp: the one macro the library sets. There is none for you to set: options are template parameters.
+// shortshot/config.hpp: the macros the library sets. There is none for you to set: options are template parameters.
 
 // Set by us: the kernel's code compiled for another instruction set lives in another inline namespace, so that two
 // translation units of one program may be compiled with different -m flags without one's code being linked into the
@@ -37,6 +37,16 @@
 #define SHORTSHOT_ISA isa_neon
 #else
 #define SHORTSHOT_ISA isa_scalar
+#endif
+
+// Set by us, too: functions, and lambdas, that are inlined for speed, but left to the compiler where it was asked for
+// small code (-Os).
+#if defined(__OPTIMIZE_SIZE__)
+#define SHORTSHOT_INLINE inline
+#define SHORTSHOT_INLINE_LAMBDA
+#else
+#define SHORTSHOT_INLINE [[gnu::always_inline]] inline
+#define SHORTSHOT_INLINE_LAMBDA __attribute__((always_inline))
 #endif
 
 // shortshot/math.hpp: the few functions the kernel needs beyond + - * / sqrt, with the same bits on every machine.
@@ -786,7 +796,7 @@ template <class Function>
 }
 
 /// The largest lane.
-[[nodiscard]] inline float largest(F32 a) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE float largest(F32 a) noexcept {
   float values[lanes];
   store(values, a);
   float result = values[0];
@@ -795,7 +805,7 @@ template <class Function>
 }
 
 /// Sum of all lanes.
-[[nodiscard]] inline std::int32_t sum(I32 a) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE std::int32_t sum(I32 a) noexcept {
   std::int32_t values[lanes];
   store(values, a);
   std::int32_t total = 0;
@@ -804,6 +814,48 @@ template <class Function>
 }
 
 }  // namespace simd
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/unroll.hpp: loops of a length known while compiling, written out. Compilers do not unroll them at -O2, and
+// what an unrolled body keeps in registers a loop keeps in memory.
+
+#include <type_traits>
+#include <utility>
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// Was the compiler asked for small code?
+#if defined(__OPTIMIZE_SIZE__)
+inline constexpr bool small_code = true;
+#else
+inline constexpr bool small_code = false;
+#endif
+
+template <class Function, int... I>
+[[gnu::always_inline]] inline void unroll(Function f, std::integer_sequence<int, I...>) noexcept {
+  (f(std::integral_constant<int, I>{}), ...);
+}
+
+/// f(0), f(1), ... f(Count - 1), each with its index as a compile-time constant.
+template <int Count, class Function>
+[[gnu::always_inline]] inline void unroll(Function f) noexcept {
+  unroll(f, std::make_integer_sequence<int, Count>{});
+}
+
+/// The same for functions that need no constants: written out for speed, a loop where code shall be small.
+template <int Count, class Function>
+SHORTSHOT_INLINE void each(Function f) noexcept {
+  if constexpr (small_code) {
+    for (int i = 0; i < Count; ++i) f(i);
+  } else {
+    unroll<Count>(f);
+  }
+}
+
+}  // namespace detail
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
@@ -819,41 +871,38 @@ namespace math {
 }
 
 [[nodiscard]] inline bool is_finite(const float (&v)[3]) noexcept {
-  return is_finite(v[0]) && is_finite(v[1]) && is_finite(v[2]);
+  for (const float component : v) {
+    if (!is_finite(component)) return false;
+  }
+  return true;
 }
 
-/// The angle of (far, near), both >= 0, above the diagonal, in units of which a power of two make a turn: up to 1/8
-/// turn either way, within 6e-8. A minimax fit with both ends exact, because points on axes and diagonals lie on the
-/// borders of cells. Of (0, 0), or of what is not finite: -1/8.
-template <int UnitsPerTurn>
-[[nodiscard, gnu::always_inline]] inline simd::F32 angle_above_diagonal(simd::F32 far, simd::F32 near) noexcept {
+/// The angle of (far, near), both >= 0, in turns and less a quarter turn: -1/4 to 0, within 6e-8. A minimax fit with
+/// both ends exact, because points on axes and diagonals lie on the borders of cells. Of (0, 0), or of what is not
+/// finite: -1/4.
+[[nodiscard]] inline simd::F32 angle_below_quarter(simd::F32 far, simd::F32 near) noexcept {
   using simd::all;
-  constexpr auto unit = static_cast<float>(UnitsPerTurn);
-  // The tangent of an angle minus an eighth of a turn. max() gives its second argument where the first is NaN.
+  constexpr float fit[] = {0.00106037291698158f, -0.00527749117463827f, 0.0125921480357647f, -0.0210182461887598f,
+                           0.0315139554440975f,  -0.0530250333249569f,  0.159154295921326f};
+  // The tangent of the angle minus an eighth of a turn. max() gives its second argument where the first is NaN.
   const simd::F32 t = simd::max((near - far) / (near + far), all(-1.0f));
   const simd::F32 s = t * t;
-  simd::F32 p = all(unit * 0.00106037291698158f);
-  p = p * s + all(unit * -0.00527749117463827f);
-  p = p * s + all(unit * 0.0125921480357647f);
-  p = p * s + all(unit * -0.0210182461887598f);
-  p = p * s + all(unit * 0.0315139554440975f);
-  p = p * s + all(unit * -0.0530250333249569f);
-  p = p * s + all(unit * 0.159154295921326f);
-  return p * t;
+  simd::F32 p = all(fit[0]);
+  detail::each<6>([&](auto k) SHORTSHOT_INLINE_LAMBDA { p = p * s + all(fit[k + 1]); });
+  return p * t - all(0.125f);
 }
 
 /// The angle from the z axis, 0 at z > 0 to 1 at z < 0 (theta / pi); rho >= 0 is the distance from the axis.
 [[nodiscard]] inline simd::F32 elevation(simd::F32 rho, simd::F32 z) noexcept {
-  using simd::all;
-  const simd::F32 above_equator = angle_above_diagonal<2>(simd::abs(z), rho) - all(0.25f);  // of (rho, |z|): -1/2 to 0
-  return all(0.5f) + simd::flip_sign(above_equator, z);
+  const simd::F32 before_equator = angle_below_quarter(simd::abs(z), rho);
+  return simd::all(0.5f) + simd::flip_sign(before_equator + before_equator, z);
 }
 
 /// (atan2(y, x) + pi) / 2 pi in [0, 1]: 1 for y = 0, x < 0.
 [[nodiscard]] inline simd::F32 azimuth(simd::F32 x, simd::F32 y) noexcept {
   using simd::all;
-  const simd::F32 before_quarter = angle_above_diagonal<1>(simd::abs(x), simd::abs(y)) - all(0.125f);  // -1/4 to 0
-  const simd::F32 half = all(0.25f) + simd::negate(x < all(0.0f), before_quarter);                     // 0 to 1/2
+  const simd::F32 before_quarter = angle_below_quarter(simd::abs(x), simd::abs(y));
+  const simd::F32 half = all(0.25f) + simd::negate(x < all(0.0f), before_quarter);  // 0 to 1/2
   return all(0.5f) + simd::negate(y < all(0.0f), half);
 }
 
@@ -872,34 +921,6 @@ template <int UnitsPerTurn>
       s + rounded(s * s2 *
                   (0.333333333f + rounded(s2 * (0.2f + rounded(s2 * (0.142857143f + rounded(s2 * 0.111111111f)))))));
   return rounded(static_cast<float>(exponent) * 0.693147181f) + rounded(2.0f * artanh);
-}
-
-/// A number kept as the sum of two floats, the second at most 2^-7 of the first: a few bits more than one float has.
-struct Sum2 {
-  float high;
-  float low;
-};
-
-/// Cube root of a number from 1e-3 to 1; high + low is within 2e-9 of it, so that it can be rounded once, at the end.
-[[nodiscard]] inline Sum2 cbrt(float value) noexcept {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  bits = bits / 3u + 0x2A5137A0u;  // exponent / 3: a guess within 4 %
-  float root = 0.0f;
-  std::memcpy(&root, &bits, sizeof root);
-  for (int step = 0; step < 2; ++step) {  // Halley: to 2e-7
-    const float cube = rounded(root * root * root);
-    root = root * (cube + rounded(2.0f * value)) / (rounded(2.0f * cube) + value);
-  }
-  // The cube of an 8-bit number is exact in float, and so is its distance to the value. With root = high + low:
-  // value - high^3 = low (3 high^2 + 3 high low + low^2).
-  std::memcpy(&bits, &root, sizeof bits);
-  bits &= 0xFFFF0000u;
-  float high = 0.0f;
-  std::memcpy(&high, &bits, sizeof high);
-  const float low = root - high;
-  const float rest = value - rounded(high * high * high);
-  return {high, rest / (rounded(3.0f * high * (high + low)) + rounded(low * low))};
 }
 
 /// The largest power of two not above a positive normal number.
@@ -924,11 +945,14 @@ struct Sum2 {
   using simd::F32;
   const F32 quantum = simd::all(splitter);
   const auto coarse = [&](F32 v) { return (v + quantum) - quantum; };
-  const F32 cx = coarse(x);
-  const F32 cy = coarse(y);
-  const F32 cz = coarse(z);
-  const F32 exact = cx * cx + cy * cy + cz * cz;
-  const F32 rest = (x - cx) * (x + cx) + (y - cy) * (y + cy) + (z - cz) * (z + cz);
+  const F32 of[3] = {x, y, z};
+  F32 exact = simd::all(0.0f);
+  F32 rest = simd::all(0.0f);
+  detail::each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+    const F32 part = coarse(of[k]);
+    exact = exact + part * part;
+    rest = rest + (of[k] - part) * (of[k] + part);
+  });
 
   const F32 root = simd::sqrt(exact + rest);
   const F32 coarse_root = coarse(root);
@@ -1196,11 +1220,13 @@ void for_each_valid(const CloudView& cloud, Function f) {
   }
 }
 
-/// The colour of point `index`; the cloud must have colours.
-[[nodiscard]] inline Rgb color(const CloudView& cloud, std::size_t index) noexcept {
-  const std::size_t offset = index * cloud.colors.stride_bytes;
-  return {cloud.colors.r[offset], cloud.colors.g[offset], cloud.colors.b[offset]};
+[[nodiscard]] inline Rgb read(const ColorChannel& channel, std::size_t index) noexcept {
+  const std::size_t offset = index * channel.stride_bytes;
+  return {channel.r[offset], channel.g[offset], channel.b[offset]};
 }
+
+/// The colour of point `index`; the cloud must have colours.
+[[nodiscard]] inline Rgb color(const CloudView& cloud, std::size_t index) noexcept { return read(cloud.colors, index); }
 
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
@@ -1301,8 +1327,6 @@ Status view_point_cloud2(const Message&& message, CloudView& view) = delete;
 // normal_x, normal_y, normal_z, which may also stand in structs of their own.
 
 #include <iterator>
-#include <type_traits>
-#include <utility>
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -1423,28 +1447,6 @@ CloudView view_of(const Container& cloud, const Normals&& normals) = delete;
 // After S. M. Prakhya, B. Liu, W. Lin: B-SHOT: A binary feature descriptor for fast and efficient keypoint matching on
 // 3D point clouds (IROS 2015): the values are taken in groups of four, and the bits of a group say which few of its
 // values make up more than 90 % of their sum.
-
-// shortshot/unroll.hpp: loops of a length known while compiling, written out. Compilers do not unroll them at -O2, and
-// what an unrolled body keeps in registers a loop keeps in memory.
-
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
-
-template <class Function, int... I>
-[[gnu::always_inline]] inline void unroll(Function f, std::integer_sequence<int, I...>) noexcept {
-  (f(std::integral_constant<int, I>{}), ...);
-}
-
-/// f(0), f(1), ... f(Count - 1), each with its index as a compile-time constant.
-template <int Count, class Function>
-[[gnu::always_inline]] inline void unroll(Function f) noexcept {
-  unroll(f, std::make_integer_sequence<int, Count>{});
-}
-
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -1670,6 +1672,53 @@ template <class D, int Group>
 
 #include <array>
 
+// shortshot/root.hpp: the roots of CIELAB, in integers: half the instructions of a float version that is as good, a
+// fortieth where there is no FPU, and nothing that could round differently elsewhere.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// t^p of a fixed p, for t from 2^-7 up to 2. With t = m 2^e, m from 1/2 to 1, and z = m - 1:
+/// t^p = (1 + z (c0 + z (c1 + ... + z c9))) 2^(e p).
+struct Root {
+  std::int32_t fit[10];     ///< c0 to c9 in units of 2^-32: ((1 + z)^p - 1) / z at ten Chebyshev nodes
+  std::uint32_t octave[8];  ///< 2^(e p) in units of 2^-31, from e = -6 on
+
+  /// Within 2e-9 before it is rounded to float, once: of the 3965 numbers k / 4000 that CIELAB asks for, all but 17 are
+  /// the float that is closest, and those are the next one.
+  [[nodiscard]] float operator()(float t) const noexcept {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &t, sizeof bits);
+    const auto z = static_cast<std::int32_t>(bits << 8 | 0x80000000u);  // in units of 2^-32
+    std::int32_t sum = fit[9];
+    each<9>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sum = fit[8 - k] + upper_half(sum, z); });
+    const auto power = static_cast<std::uint32_t>(upper_half(sum, z) + 1);  // modulo 1; rounded up, as the rest is down
+    const std::uint64_t product = std::uint64_t{power} * octave[(bits >> 23) - 120u];
+    return rounded(static_cast<float>(static_cast<std::uint32_t>(product >> 32)) * (1.0f / 2147483648.0f));
+  }
+
+ private:
+  [[nodiscard]] static std::int32_t upper_half(std::int32_t a, std::int32_t b) noexcept {
+    return static_cast<std::int32_t>((std::int64_t{a} * b) >> 32);  // towards minus infinity, as simd::shift_right()
+  }
+};
+
+inline constexpr Root cube_root{
+    {1431655764, -477219117, 265086957, -177611235, 118766867, -177798683, -243108994, -883031911, -1088405058,
+     -784821837},
+    {536870912u, 676414963u, 852229450u, 1073741824u, 1352829926u, 1704458901u, 2147483648u, 2705659852u}};
+
+/// t^0.3333, as the published SSH / SCSH code has it.
+inline constexpr Root published_root{
+    {1431512598, -477195254, 265079000, -177608167, 118765444, -177800906, -243118475, -883057088, -1088438257,
+     -784843915},
+    {536945343u, 676493110u, 852308217u, 1073816253u, 1352892442u, 1704498283u, 2147483648u, 2705597339u}};
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
 namespace shortshot {
 
 /// CIELAB colour: L in 0..100 (-16 for PclLab's white), a and b clamped to -120..120 as both existing codes do.
@@ -1728,51 +1777,57 @@ inline constexpr std::array<float, 256> srgb_to_linear = make_srgb_to_linear();
 
 /// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
 struct PublishedLab {
+  static constexpr bool leaves_gamut = false;  ///< are there sRGB colours beyond -120..120 in a or b?
+  /// Of a CIE ratio, 0 to 1.
   [[nodiscard]] static float root(float t) noexcept {
-    if (!(t > 0.008856f)) return rounded(7.787f * t) + 16.0f / 116.0f;
-    // t^0.3333 = t^(1/3) exp(-ln t / 30000), and exp(e) = 1 + e + e^2 / 2 for |e| < 2e-4.
-    const math::Sum2 cube_root = math::cbrt(t);
-    const float e = rounded(math::log(t) * (-1.0f / 30000.0f));
-    return cube_root.high + (cube_root.low + rounded((cube_root.high + cube_root.low) * (e + rounded(0.5f * e * e))));
+    return t > 0.008856f ? detail::published_root(t) : rounded(7.787f * t) + 16.0f / 116.0f;
   }
 };
 
 /// CIELAB by the formula of PCL's CSHOT: the cube root above the knee, 7.87 t + 16/116 below.
 struct CshotLab {
+  static constexpr bool leaves_gamut = false;
   [[nodiscard]] static float root(float t) noexcept {
-    if (!(t > 0.008856f)) return rounded(7.87f * t) + 16.0f / 116.0f;
-    const math::Sum2 cube_root = math::cbrt(t);
-    return cube_root.high + cube_root.low;
+    return t > 0.008856f ? detail::cube_root(t) : rounded(7.87f * t) + 16.0f / 116.0f;
   }
 };
 
 /// The same as PCL's compiled code gives it: its table of roots ends before that of 1, where it reads a zero. White,
 /// the only colour with such a ratio, becomes L = -16, a = 120, b = -120.
 struct PclLab {
+  static constexpr bool leaves_gamut = true;
   [[nodiscard]] static float root(float t) noexcept { return t < 1.0f ? CshotLab::root(t) : 0.0f; }
 };
 
 namespace detail {
 
-/// The CIE ratios X / Xn, Y / Yn and Z / Zn of a colour in whole steps of 1 / 4000: positions in the published tables.
-struct RatioSteps {
-  int x, y, z;
+/// A colour without sRGB's gamma.
+struct LinearRgb {
+  float of[3];
 };
 
-[[nodiscard]] constexpr RatioSteps ratio_steps(Rgb rgb) noexcept {
-  const float r = srgb_to_linear[rgb.r];
-  const float g = srgb_to_linear[rgb.g];
-  const float b = srgb_to_linear[rgb.b];
-  const float x = (rounded(r * 0.412453f) + rounded(g * 0.357580f) + rounded(b * 0.180423f)) / 0.95047f;
-  const float y = rounded(r * 0.212671f) + rounded(g * 0.715160f) + rounded(b * 0.072169f);
-  const float z = (rounded(r * 0.019334f) + rounded(g * 0.119193f) + rounded(b * 0.950227f)) / 1.08883f;
-  return {static_cast<int>(x * 4000.0f), static_cast<int>(y * 4000.0f), static_cast<int>(z * 4000.0f)};
+[[nodiscard]] constexpr LinearRgb to_linear(Rgb rgb) noexcept {
+  return {{srgb_to_linear[rgb.r], srgb_to_linear[rgb.g], srgb_to_linear[rgb.b]}};
+}
+
+/// Linear RGB to CIE XYZ, and the white point.
+inline constexpr float xyz_of_rgb[3][3] = {
+    {0.412453f, 0.357580f, 0.180423f}, {0.212671f, 0.715160f, 0.072169f}, {0.019334f, 0.119193f, 0.950227f}};
+inline constexpr float white_xyz[3] = {0.95047f, 1.0f, 1.08883f};
+
+/// A CIE ratio of a colour (0: X / Xn, 1: Y / Yn, 2: Z / Zn) in whole steps of 1 / 4000: the position in the published
+/// tables.
+[[nodiscard]] constexpr int ratio_step(int ratio, const LinearRgb& rgb) noexcept {
+  const float(&row)[3] = xyz_of_rgb[ratio];
+  const float sum = rounded(rgb.of[0] * row[0]) + rounded(rgb.of[1] * row[1]) + rounded(rgb.of[2] * row[2]);
+  return static_cast<int>(sum / white_xyz[ratio] * 4000.0f);
 }
 
 /// The last step that a colour can have. The ratios grow with each of the three bytes: no colour is beyond white.
 inline constexpr int last_ratio_step = 4000;
-static_assert(ratio_steps({255, 255, 255}).x <= last_ratio_step && ratio_steps({255, 255, 255}).y <= last_ratio_step &&
-                  ratio_steps({255, 255, 255}).z <= last_ratio_step,
+inline constexpr LinearRgb white = to_linear({255, 255, 255});
+static_assert(ratio_step(0, white) <= last_ratio_step && ratio_step(1, white) <= last_ratio_step &&
+                  ratio_step(2, white) <= last_ratio_step,
               "white has the largest ratios");
 
 /// The root that `Rule` takes of a ratio of `step` / 4000.
@@ -1781,16 +1836,19 @@ template <class Rule>
   return Rule::root(static_cast<float>(step) / 4000.0f);
 }
 
-/// CIELAB of a colour; root(step) is the root of a ratio, computed or from a table of them.
-template <class Root>
+/// CIELAB of a colour; root(step) is the root of a ratio, computed or from a table of them. Both existing codes clamp a
+/// and b to -120..120 (and L to 100), which is beyond what sRGB colours have but for PclLab's white.
+template <class Rule, class Root>
 [[nodiscard]] inline Lab lab_by(const Root& root, Rgb rgb) noexcept {
-  const RatioSteps steps = ratio_steps(rgb);
-  const float fx = root(steps.x);
-  const float fy = root(steps.y);
-  const float fz = root(steps.z);
+  const LinearRgb linear = to_linear(rgb);
+  int steps[3];
+  float f[3];
+  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { steps[k] = ratio_step(k, linear); });
+  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { f[k] = root(steps[k]); });
+  const Lab lab{rounded(116.0f * f[1]) - 16.0f, rounded(500.0f * (f[0] - f[1])), rounded(200.0f * (f[1] - f[2]))};
+  if constexpr (!Rule::leaves_gamut) return lab;
   const auto clamped = [](float value) { return value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
-  const float lightness = rounded(116.0f * fy) - 16.0f;
-  return {lightness > 100.0f ? 100.0f : lightness, clamped(500.0f * (fx - fy)), clamped(200.0f * (fy - fz))};
+  return {lab.L, clamped(lab.a), clamped(lab.b)};
 }
 
 }  // namespace detail
@@ -1800,7 +1858,7 @@ template <class Root>
 /// same bits several times faster, for 16 KB.
 template <class Rule>
 [[nodiscard]] inline Lab to_lab(Rgb rgb) noexcept {
-  return detail::lab_by(detail::root_of_step<Rule>, rgb);
+  return detail::lab_by<Rule>([](int step) { return detail::root_of_step<Rule>(step); }, rgb);
 }
 
 /// Lanes of CIELAB colours.
@@ -1902,10 +1960,11 @@ inline namespace SHORTSHOT_ISA {
 template <class LabRule>
 struct RgbColors {
   using Rule = LabRule;
-  CloudView cloud;
+  ColorChannel bytes;  ///< the cloud's
   Lab reference;
-  [[nodiscard]] Status status() const noexcept { return has_colors(cloud) ? Status::ok : Status::missing_colors; }
-  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return to_lab<LabRule>(color(cloud, index)); }
+  RgbColors(const CloudView& cloud, const Lab& color) noexcept : bytes(cloud.colors), reference(color) {}
+  [[nodiscard]] Status status() const noexcept { return bytes.r != nullptr ? Status::ok : Status::missing_colors; }
+  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return to_lab<LabRule>(read(bytes, index)); }
 };
 
 /// The same from an array that holds each point's colour, converted once for the whole cloud by convert_colors().
@@ -1928,6 +1987,7 @@ struct NoColors {
 /// One register of colours by index.
 template <class Colors>
 [[nodiscard]] inline LabLanes colors_at(const Colors& colors, const std::uint32_t* index) noexcept {
+  if constexpr (simd::lanes == 1) return in_all_lanes(colors(*index));
   float lanes[3][simd::lanes];
   for (std::size_t k = 0; k < simd::lanes; ++k) {
     const Lab color = colors(index[k]);
@@ -1988,28 +2048,31 @@ constexpr bool has_rule_of(...) noexcept {
 
 // shortshot/descriptor.hpp: what a descriptor is made of. Pure types: sizes, offsets and layout are compile-time facts.
 
-// shortshot/axis.hpp: one axis of a part, a compile-time fact: its cells, and what lies beyond them.
+// shortshot/axis.hpp: one axis of a part: its cells, and what lies beyond them.
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
 /// What lies beyond the last cell of an axis: nothing (radius, elevation, signal) or the first cell (azimuth).
-enum class Beyond { nothing, first_cell };
+enum class Beyond : std::uint8_t { nothing, first_cell };
 
 /// What positions below zero mean, by as much as a cell: there are none, the rest of the first cell (logarithmic
 /// shells), or no place on this axis at all (the azimuth of a point on the frame's z axis, by SHOT's convention).
-enum class BelowZero { never, first_cell, nowhere };
+enum class BelowZero : std::uint8_t { never, first_cell, nowhere };
 
 /// One axis of a part: its number of cells, the distance of two neighbouring cells in the descriptor, and its ends.
-/// Positions along it are fixed-point numbers of cells with `Bits` bits behind the point.
-template <int Cells, int Stride, Beyond End, int Bits, BelowZero Below = BelowZero::never>
+/// Positions along it are fixed-point numbers of cells with `bits` bits behind the point. A value and not a type: where
+/// code is inlined for speed it is as constant, and where it shall be small all axes share one function.
 struct Axis {
-  static constexpr int cells = Cells;
-  static constexpr int stride = Stride;
-  static constexpr Beyond end = End;
-  static constexpr int bits = Bits;
-  static constexpr float one = static_cast<float>(std::int32_t{1} << Bits);  ///< a whole cell
-  static constexpr BelowZero below_zero = Below;
+  std::int32_t cells;
+  std::int32_t stride;
+  Beyond end;
+  BelowZero below_zero;
+  std::int8_t bits;
+
+  /// A whole cell, and the whole axis.
+  [[nodiscard]] constexpr float one() const noexcept { return static_cast<float>(std::int32_t{1} << bits); }
+  [[nodiscard]] constexpr float length() const noexcept { return static_cast<float>(cells) * one(); }
 };
 
 }  // namespace SHORTSHOT_ISA
@@ -2049,9 +2112,8 @@ struct PublishedCells {
   /// From numbers of cells, times the axis' unit, to fixed-point positions on grid axes.
   [[nodiscard]] static simd::I32 position(simd::F32 scaled) noexcept { return truncate_to_int(scaled); }
   /// From a signal, 0..1, to the position on the histogram's axis.
-  template <class Axis>
-  [[nodiscard]] static simd::I32 bin_position(simd::F32 signal) noexcept {
-    return truncate_to_int(signal * simd::all(static_cast<float>(Axis::cells) * Axis::one));
+  [[nodiscard]] static simd::I32 bin_position(const Axis& axis, simd::F32 signal) noexcept {
+    return truncate_to_int(signal * simd::all(axis.length()));
   }
 };
 
@@ -2072,10 +2134,9 @@ struct ShotCells {
   [[nodiscard]] static simd::I32 position(simd::F32 scaled) noexcept {
     return truncate_to_int(simd::max(scaled, simd::all(1.0f))) - simd::all_int(1);
   }
-  template <class Axis>
-  [[nodiscard]] static simd::I32 bin_position(simd::F32 signal) noexcept {
-    constexpr std::int32_t middle = std::int32_t{1} << (Axis::bits - 1);
-    return truncate_to_int(signal * simd::all(static_cast<float>(Axis::cells - 1) * Axis::one)) + simd::all_int(middle);
+  [[nodiscard]] static simd::I32 bin_position(const Axis& axis, simd::F32 signal) noexcept {
+    const std::int32_t middle = std::int32_t{1} << (axis.bits - 1);
+    return truncate_to_int(signal * simd::all(axis.length() - axis.one())) + simd::all_int(middle);
   }
 };
 
@@ -2102,15 +2163,13 @@ struct SphericalGrid {
   static constexpr int cells = Radial * Elevation * Azimuth;
 };
 
-/// Shells of equal width: the published default. `u` is the distance over the support radius, in [0, 1]; `shell` is how
-/// much one shell counts.
+/// Shells of equal width: the published default. `u` is the distance over the support radius, in [0, 1].
 struct LinearRadius {
   static constexpr BelowZero below_zero = BelowZero::never;
   /// All borders and middles of shells are multiples of 1 / borders.
   static constexpr int borders(int shells) noexcept { return 2 * shells; }
-  template <int Shells>
-  [[nodiscard]] static simd::F32 position(simd::F32 u, float shell) noexcept {
-    return u * simd::all(static_cast<float>(Shells) * shell);
+  [[nodiscard]] static simd::F32 position(const Axis& shells, simd::F32 u) noexcept {
+    return u * simd::all(shells.length());
   }
 };
 
@@ -2122,14 +2181,15 @@ struct LogRadius {
                 "LogRadius<N, D> supports ratios 0 < N / D <= 0.99");
   static constexpr BelowZero below_zero = BelowZero::first_cell;
   static constexpr int borders(int) noexcept { return 1; }  // in float's own rounding
-  template <int Shells>
-  [[nodiscard]] static simd::F32 position(simd::F32 u, float shell) noexcept {
+  [[nodiscard]] static simd::F32 position(const Axis& shells, simd::F32 u) noexcept {
+    const float shell = shells.one();
     const float log_of_ratio = math::log(static_cast<float>(Numerator) / static_cast<float>(Denominator));
     return simd::apply(
-        [log_of_ratio, shell](float distance) {
+        [=](float distance) {
           // Distances below the smallest normal number have no logarithm; any tiny one lies in the innermost shell.
           const float log_of_distance = math::log(distance > 1e-30f ? distance : 1e-30f);
-          const float p = static_cast<float>(Shells - 1) * (log_of_distance - log_of_ratio) / -log_of_ratio + 1.0f;
+          const float p =
+              static_cast<float>(shells.cells - 1) * (log_of_distance - log_of_ratio) / -log_of_ratio + 1.0f;
           // Below zero, what counts is the rest of a shell: the cell is the innermost one anyway.
           return rounded((p < 0.0f ? p - static_cast<float>(static_cast<int>(p)) : p) * shell);
         },
@@ -2163,7 +2223,6 @@ struct Share {
   simd::I32 cell;           ///< index of the primary cell, times the axis' stride
   simd::I32 step;           ///< index of the partner cell minus that of the primary one; 0 where there is no partner
   simd::I32 twice_partner;  ///< twice the partner's share in units: 0 to 1, to 3 below zero; the rest is the cell's
-  simd::Mask alone;         ///< there is no partner: only where the axis ends
 };
 
 /// The votes of one point: `Count` indices into the part and their weights, in units.
@@ -2176,70 +2235,75 @@ struct Votes {
 namespace detail {
 
 /// The cell of a position. The very end of the axis is the upper border of the last cell.
-template <class Axis>
-[[nodiscard]] inline simd::I32 cell_of(simd::I32 position) noexcept {
-  const simd::I32 cell = simd::small_min(simd::shift_right(position, Axis::bits), simd::all_int(Axis::cells - 1));
-  return Axis::below_zero == BelowZero::never ? cell : simd::small_max(cell, simd::all_int(0));
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 cell_of(const Axis& axis, simd::I32 position) noexcept {
+  const simd::I32 cell = simd::small_min(simd::shift_right(position, axis.bits), simd::all_int(axis.cells - 1));
+  return axis.below_zero == BelowZero::never ? cell : simd::small_max(cell, simd::all_int(0));
 }
 
-template <int Factor>
-[[nodiscard]] inline simd::I32 times(simd::I32 a) noexcept {
-  if constexpr (Factor == 1) {
-    return a;
-  } else if constexpr (Factor < 32768) {
-    return simd::small_product(a, simd::all_int(Factor));
-  } else {
-    return times<Factor / 2>(a) + times<Factor - Factor / 2>(a);
-  }
+/// Cells, or -1, 0 or 1 of them, times a number of values below 2^22.
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 times(simd::I32 a, std::int32_t factor) noexcept {
+  if (factor == 1) return a;
+  const simd::I32 low = simd::small_product(a, simd::all_int(factor & 32767));
+  return factor < 32768 ? low : low + simd::shift_left(simd::small_product(a, simd::all_int(factor >> 15)), 15);
 }
 
 /// From a cell to the next one in a direction (1 or -1), around the ends.
-template <class Axis>
-[[nodiscard, gnu::always_inline]] inline simd::I32 next_around(simd::I32 cell, simd::I32 direction) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 next_around(const Axis& axis, simd::I32 cell, simd::I32 direction) noexcept {
   using simd::all_int;
   const simd::I32 next = cell + direction;
-  if constexpr ((Axis::cells & (Axis::cells - 1)) == 0) return next & all_int(Axis::cells - 1);
-  return (next + keep(is_negative(next), all_int(Axis::cells))) -
-         keep(next > all_int(Axis::cells - 1), all_int(Axis::cells));
+  if (!small_code && (axis.cells & (axis.cells - 1)) == 0) return next & all_int(axis.cells - 1);
+  return (next + keep(is_negative(next), all_int(axis.cells))) -
+         keep(next > all_int(axis.cells - 1), all_int(axis.cells));
 }
 
-/// The share of a position in a cell: fraction 0 is the cell's lower border, 2^Axis::bits its upper one. `Rounds`: the
+/// The share of a position in a cell: fraction 0 is the cell's lower border, 2^axis.bits its upper one. `rounds`: the
 /// partner's share is rounded to the nearest unit, not down.
-template <class Axis, bool Rounds = false>
-[[nodiscard, gnu::always_inline]] inline Share share(simd::I32 cell, simd::I32 fraction,
-                                                     const VoteUnit& unit) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE Share share(const Axis& axis, simd::I32 cell, simd::I32 fraction, const VoteUnit& unit,
+                                           bool rounds) noexcept {
   using simd::all_int;
-  constexpr std::int32_t half = std::int32_t{1} << (Axis::bits - 1);
+  const std::int32_t half = std::int32_t{1} << (axis.bits - 1);
   const simd::I32 side = fraction - all_int(half + 1);
   const simd::Mask lower = is_negative(side);  // the middle of the cell included
   const simd::I32 direction = minus_one_or_one(lower);
   // The partner's share is the distance from the middle; ~side = -side - 1 is what is left up to it.
   simd::I32 distance = invert(lower, side);
-  const int finer_bits = Axis::bits - unit.bits - 1;
-  if (Rounds) distance = distance + all_int((std::int32_t{1} << finer_bits) >> 1);
+  const int finer_bits = axis.bits - unit.bits - 1;
+  if (rounds) distance = distance + all_int((std::int32_t{1} << finer_bits) >> 1);
   const simd::I32 twice_partner = simd::shift_right(distance, finer_bits);
-  const simd::I32 index = times<Axis::stride>(cell);
-  if constexpr (Axis::cells == 1) return {index, all_int(0), twice_partner, all_int(0) == all_int(0)};
-  if constexpr (Axis::end == Beyond::first_cell) {
-    const simd::I32 step = times<Axis::stride>(next_around<Axis>(cell, direction) - cell);
-    return {index, step, twice_partner, all_int(0) == all_int(1)};
+  const simd::I32 index = times(cell, axis.stride);
+  if (axis.cells == 1) return {index, all_int(0), twice_partner};
+  if (axis.end == Beyond::first_cell) {
+    return {index, times(next_around(axis, cell, direction) - cell, axis.stride), twice_partner};
   }
-  const simd::Mask alone = cell == drop(lower, all_int(Axis::cells - 1));  // first and lower, or last and upper
-  return {index, drop(alone, times<Axis::stride>(direction)), twice_partner, alone};
+  const simd::Mask alone = cell == drop(lower, all_int(axis.cells - 1));  // first and lower, or last and upper
+  return {index, drop(alone, times(direction, axis.stride)), twice_partner};
 }
 
 /// The share of a position in the cell it lies in.
-template <class Axis, bool Rounds = false>
-[[nodiscard, gnu::always_inline]] inline Share share_in_cell(simd::I32 position, const VoteUnit& unit) noexcept {
-  const simd::I32 cell = cell_of<Axis>(position);
-  return share<Axis, Rounds>(cell, position - simd::shift_left(cell, Axis::bits), unit);
+[[nodiscard]] SHORTSHOT_INLINE Share share_in_cell(const Axis& axis, simd::I32 position, const VoteUnit& unit,
+                                                   bool rounds) noexcept {
+  const simd::I32 cell = cell_of(axis, position);
+  return share(axis, cell, position - simd::shift_left(cell, axis.bits), unit, rounds);
+}
+
+/// Are there positions on this axis without a partner?
+[[nodiscard]] constexpr bool may_be_alone(const Axis& axis) noexcept {
+  return small_code || axis.cells == 1 || axis.end == Beyond::nothing || axis.below_zero == BelowZero::nowhere;
 }
 
 template <int Axes>
-[[nodiscard]] inline simd::I32 primary_index(const Share (&shares)[Axes]) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 primary_index(const Share (&shares)[4]) noexcept {
   simd::I32 index = shares[0].cell;
-  unroll<Axes - 1>([&](auto i) { index = index + shares[i + 1].cell; });
+  each<Axes - 1>([&](auto i) { index = index + shares[i + 1].cell; });
   return index;
+}
+
+/// The sum of all axes' shares, twice, that partners have.
+template <int Axes>
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 twice_all_partners(const Share (&shares)[4]) noexcept {
+  simd::I32 sum = shares[0].twice_partner;
+  each<Axes - 1>([&](auto i) { sum = sum + shares[i + 1].twice_partner; });
+  return sum;
 }
 
 }  // namespace detail
@@ -2258,36 +2322,32 @@ struct AdditiveVoting {
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
-  template <class Axis>
-  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
-    simd::I32 fraction = position & simd::all_int((std::int32_t{1} << Axis::bits) - 1);
-    if constexpr (Axis::below_zero != BelowZero::never) {
+  [[nodiscard]] SHORTSHOT_INLINE static Share split(const Axis& axis, simd::I32 position,
+                                                    const VoteUnit& unit) noexcept {
+    simd::I32 fraction = position & simd::all_int((std::int32_t{1} << axis.bits) - 1);
+    if (axis.below_zero != BelowZero::never) {
       const simd::Mask below = is_negative(position);
       fraction = keep(below, position) + drop(below, fraction);
     }
-    return detail::share<Axis>(detail::cell_of<Axis>(position), fraction, unit);
+    return detail::share(axis, detail::cell_of(axis, position), fraction, unit, false);
   }
 
-  template <class... AllAxes>
-  [[nodiscard, gnu::always_inline]] static Votes<sizeof...(AllAxes) + 1> combine(
-      const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
+  template <int Axes>
+  [[nodiscard]] SHORTSHOT_INLINE static Votes<Axes + 1> combine(const Axis (&axes)[4], const Share (&shares)[4],
+                                                                const VoteUnit& unit) noexcept {
     using simd::all_int;
-    constexpr int axes = sizeof...(AllAxes);
-    constexpr bool may_be_alone[] = {AllAxes::cells == 1 || AllAxes::end == Beyond::nothing...};
-    simd::I32 twice_partners = shares[0].twice_partner;
-    detail::unroll<axes - 1>([&](auto i) { twice_partners = twice_partners + shares[i + 1].twice_partner; });
-    const simd::I32 sum = all_int(axes * unit.one) - simd::shift_right(twice_partners, 1);
+    const simd::I32 sum = all_int(Axes * unit.one) - simd::shift_right(detail::twice_all_partners<Axes>(shares), 1);
     const simd::I32 rest = sum - all_int(unit.one);
 
-    Votes<axes + 1> votes;
-    votes.index[0] = detail::primary_index(shares);
+    Votes<Axes + 1> votes;
+    votes.index[0] = detail::primary_index<Axes>(shares);
     votes.weight[0] = sum;
-    detail::unroll<axes>([&](auto i) {
+    detail::each<Axes>([&](auto i) {
       // A share 1 - p replaced by p.
       simd::I32 weight = rest + shares[i].twice_partner;
-      if constexpr (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all_int(unit.one));
+      if (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all_int(unit.one));
       votes.index[i + 1] = votes.index[0] + shares[i].step;
-      votes.weight[i + 1] = may_be_alone[i] ? drop(shares[i].alone, weight) : weight;
+      votes.weight[i + 1] = detail::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
     });
     return votes;
   }
@@ -2307,40 +2367,33 @@ struct SeparateVoting {
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
-  template <class Axis>
-  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
-    Share share = detail::share_in_cell<Axis, true>(position, unit);
-    if constexpr (Axis::below_zero == BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
+  [[nodiscard]] SHORTSHOT_INLINE static Share split(const Axis& axis, simd::I32 position,
+                                                    const VoteUnit& unit) noexcept {
+    Share share = detail::share_in_cell(axis, position, unit, true);
+    if (axis.below_zero == BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
       const simd::Mask nowhere = is_negative(position);
       share.twice_partner = drop(nowhere, share.twice_partner) + keep(nowhere, simd::all_int(2 * unit.one));
-      share.alone = share.alone | nowhere;
+      share.step = drop(nowhere, share.step);
     }
     return share;
   }
 
-  template <class... AllAxes>
-  [[nodiscard, gnu::always_inline]] static Votes<sizeof...(AllAxes) + 1> combine(
-      const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
+  template <int Axes>
+  [[nodiscard]] SHORTSHOT_INLINE static Votes<Axes + 1> combine(const Axis (&axes)[4], const Share (&shares)[4],
+                                                                const VoteUnit& unit) noexcept {
     using simd::all_int;
-    constexpr int axes = sizeof...(AllAxes);
-    constexpr bool may_be_alone[] = {AllAxes::cells == 1 || AllAxes::end == Beyond::nothing ||
-                                     AllAxes::below_zero == BelowZero::nowhere...};
-    constexpr int cells[] = {AllAxes::cells...};
-    simd::I32 twice_partners = shares[0].twice_partner;
-    detail::unroll<axes - 1>([&](auto i) { twice_partners = twice_partners + shares[i + 1].twice_partner; });
-
-    Votes<axes + 1> votes;
-    votes.index[0] = detail::primary_index(shares);
-    votes.weight[0] = all_int(2 * axes * unit.one) - twice_partners;
-    detail::unroll<axes>([&](auto i) {
+    Votes<Axes + 1> votes;
+    votes.index[0] = detail::primary_index<Axes>(shares);
+    votes.weight[0] = all_int(2 * Axes * unit.one) - detail::twice_all_partners<Axes>(shares);
+    detail::each<Axes>([&](auto i) {
       const simd::I32 weight = shares[i].twice_partner;
       simd::I32 index = votes.index[0] + shares[i].step;
-      if constexpr (WrapLastBin && i == 3) {
-        constexpr std::int32_t last = cells[3] - 1;
+      if (WrapLastBin && i == 3) {
+        const std::int32_t last = axes[3].cells - 1;
         index = index - keep(shares[3].cell + shares[3].step == all_int(last), all_int(last));
       }
       votes.index[i + 1] = index;
-      votes.weight[i + 1] = may_be_alone[i] ? drop(shares[i].alone, weight) : weight;
+      votes.weight[i + 1] = detail::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
     });
     return votes;
   }
@@ -2356,17 +2409,15 @@ struct HardVoting {
   template <int Axes>
   static constexpr int votes = 1;
 
-  template <class Axis>
-  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit&) noexcept {
+  [[nodiscard]] SHORTSHOT_INLINE static Share split(const Axis& axis, simd::I32 position, const VoteUnit&) noexcept {
     using simd::all_int;
-    return {detail::times<Axis::stride>(detail::cell_of<Axis>(position)), all_int(0), all_int(0),
-            all_int(0) == all_int(0)};
+    return {detail::times(detail::cell_of(axis, position), axis.stride), all_int(0), all_int(0)};
   }
 
-  template <class... AllAxes>
-  [[nodiscard, gnu::always_inline]] static Votes<1> combine(const Share (&shares)[sizeof...(AllAxes)],
-                                                            const VoteUnit& unit) noexcept {
-    return {{detail::primary_index(shares)}, {simd::all_int(unit.one)}};
+  template <int Axes>
+  [[nodiscard]] SHORTSHOT_INLINE static Votes<1> combine(const Axis (&)[4], const Share (&shares)[4],
+                                                         const VoteUnit& unit) noexcept {
+    return {{detail::primary_index<Axes>(shares)}, {simd::all_int(unit.one)}};
   }
 };
 
@@ -2378,23 +2429,22 @@ struct MultilinearVoting {
   template <int Axes>
   static constexpr int votes = 1 << Axes;
 
-  template <class Axis>
-  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
-    Share share = detail::share_in_cell<Axis>(position, unit);
-    share.twice_partner = drop(share.alone, share.twice_partner);
+  [[nodiscard]] SHORTSHOT_INLINE static Share split(const Axis& axis, simd::I32 position,
+                                                    const VoteUnit& unit) noexcept {
+    Share share = detail::share_in_cell(axis, position, unit, false);
+    share.twice_partner = drop(share.step == simd::all_int(0), share.twice_partner);
     return share;
   }
 
-  template <class... AllAxes>
-  [[nodiscard, gnu::always_inline]] static Votes<(1 << sizeof...(AllAxes))> combine(
-      const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
-    constexpr int axes = sizeof...(AllAxes);
+  template <int Axes>
+  [[nodiscard]] SHORTSHOT_INLINE static Votes<(1 << Axes)> combine(const Axis (&)[4], const Share (&shares)[4],
+                                                                   const VoteUnit& unit) noexcept {
     const simd::F32 half = simd::all(0.5f / static_cast<float>(unit.one));
-    Votes<(1 << axes)> votes;
-    simd::F32 weight[1 << axes];
-    votes.index[0] = detail::primary_index(shares);
+    Votes<(1 << Axes)> votes;
+    simd::F32 weight[1 << Axes];
+    votes.index[0] = detail::primary_index<Axes>(shares);
     weight[0] = simd::all(static_cast<float>(unit.one));
-    detail::unroll<axes>([&](auto axis) {
+    detail::unroll<Axes>([&](auto axis) {
       constexpr int count = 1 << decltype(axis)::value;
       const simd::F32 partner = to_float(shares[axis].twice_partner) * half;
       detail::unroll<count>([&](auto i) {
@@ -2403,7 +2453,7 @@ struct MultilinearVoting {
         weight[i] = weight[i] - weight[count + i];
       });
     });
-    detail::unroll<(1 << axes)>([&](auto i) { votes.weight[i] = round_to_int(weight[i]); });
+    detail::each<(1 << Axes)>([&](auto i) { votes.weight[i] = round_to_int(weight[i]); });
     return votes;
   }
 };
@@ -2482,17 +2532,16 @@ struct Part {
   static constexpr int grid_bits = detail::position_bits(Grid::radial, Grid::elevation, Grid::azimuth);
   static constexpr int bits = detail::position_bits(1 << (30 - grid_bits), values);
 
-  /// Axes of the grid if every cell of it had `Values` values.
-  template <int Values = values>
-  using RadialAxis =
-      Axis<Grid::radial, Values * Cells::template strides<Grid>.radial, Beyond::nothing, grid_bits, Scale::below_zero>;
-  template <int Values = values>
-  using ElevationAxis =
-      Axis<Grid::elevation, Values * Cells::template strides<Grid>.elevation, Beyond::nothing, grid_bits>;
-  template <int Values = values>
-  using AzimuthAxis = Axis<Grid::azimuth, Values * Cells::template strides<Grid>.azimuth, Beyond::first_cell, grid_bits,
-                           Cells::has_poles ? BelowZero::nowhere : BelowZero::never>;
-  using SignalAxis = Axis<values, 1, Beyond::nothing, bits>;
+  /// The axes if every cell of the grid had `Values` values: radius, elevation, azimuth, and the histogram's where
+  /// there is one.
+  static constexpr int axis_count = has_histogram ? 4 : 3;
+  template <int Values>
+  static constexpr Axis axes[4] = {
+      {Grid::radial, Values* Cells::template strides<Grid>.radial, Beyond::nothing, Scale::below_zero, grid_bits},
+      {Grid::elevation, Values* Cells::template strides<Grid>.elevation, Beyond::nothing, BelowZero::never, grid_bits},
+      {Grid::azimuth, Values* Cells::template strides<Grid>.azimuth, Beyond::first_cell,
+       Cells::has_poles ? BelowZero::nowhere : BelowZero::never, grid_bits},
+      {values, 1, Beyond::nothing, BelowZero::never, bits}};
 };
 
 namespace detail {
@@ -2640,16 +2689,13 @@ namespace detail {
 /// The largest e such that `n` numbers of magnitude up to 2^bits, times 2^e, can be added up in any order without
 /// leaving int32, and each has at most 22 bits (what simd::round_to_int() can take).
 [[nodiscard]] inline int fixed_point_exponent(std::uint32_t n, int bits) noexcept {
-  int exponent = 30;
-  for (std::uint32_t covered = 1; covered < n; covered *= 2) --exponent;
-  return (exponent > 22 ? 22 : exponent) - bits;
+  const int exponent = n > 256 ? __builtin_clz(n - 1) - 2 : 22;  // 2^(30 - exponent) >= n
+  return exponent - bits;
 }
 
-/// The same as a factor; 1 at least.
-[[nodiscard]] inline float fixed_point_scale(std::uint32_t n, int bits) noexcept {
-  float scale = 1.0f;
-  for (int exponent = fixed_point_exponent(n, bits); exponent > 0; --exponent) scale *= 2.0f;
-  return scale;
+/// The same as a factor, for numbers of magnitude up to 1.
+[[nodiscard]] inline float fixed_point_scale(std::uint32_t n) noexcept {
+  return static_cast<float>(1 << fixed_point_exponent(n, 0));
 }
 
 }  // namespace detail
@@ -2688,6 +2734,29 @@ struct Workspace {
   std::uint32_t index[MaxNeighbors];
 };
 
+/// The same in a tenth of the memory: indices only. Offsets are worked out from the cloud whenever they are asked for,
+/// with the same bits. Trivial type.
+template <class Index>
+struct CompactNeighborhood {
+  Float3Channel points;  ///< of the cloud
+  Point center;          ///< the key point
+  Index* index;          ///< the neighbour's index in the cloud, `capacity` elements; no two are the same
+  std::uint32_t capacity;
+  std::uint32_t size;   ///< neighbours stored, the key point itself and its copies included
+  std::uint32_t found;  ///< neighbours found; more than `capacity` if they did not fit
+};
+
+/// A Workspace of 2 bytes a neighbour (`Index` std::uint32_t: 4) for targets that have more time than memory. Clouds of
+/// more points than `Index` can tell apart have too_many_neighbors, whatever the key point.
+template <std::size_t MaxNeighbors, class Index = std::uint16_t>
+struct CompactWorkspace {
+  static_assert(MaxNeighbors >= 5 && MaxNeighbors <= max_neighbors,
+                "CompactWorkspace<MaxNeighbors> supports 5 (a local reference frame needs as many) to 2^24 neighbours");
+  static_assert(std::is_same<Index, std::uint16_t>::value || std::is_same<Index, std::uint32_t>::value,
+                "CompactWorkspace<MaxNeighbors, Index> supports uint16_t and uint32_t");
+  Index index[MaxNeighbors];
+};
+
 inline namespace SHORTSHOT_ISA {
 
 /// A support radius in metres and its square. Neighbours are points with float d2 < squared: strictly inside.
@@ -2711,10 +2780,48 @@ struct Radius {
   return usable ? Status::ok : Status::bad_radius;
 }
 
-/// An empty neighbourhood in a workspace's memory.
+/// An empty neighbourhood in a workspace's memory; of a compact one around the key point `center` of a cloud.
 template <std::size_t MaxNeighbors>
 [[nodiscard]] inline Neighborhood neighborhood_in(Workspace<MaxNeighbors>& w) noexcept {
   return {w.dx, w.dy, w.dz, w.d2, w.index, static_cast<std::uint32_t>(MaxNeighbors), 0, 0};
+}
+
+template <std::size_t MaxNeighbors>
+[[nodiscard]] inline Neighborhood neighborhood_in(Workspace<MaxNeighbors>& w, const CloudView&, const Point&) noexcept {
+  return neighborhood_in(w);
+}
+
+template <std::size_t MaxNeighbors, class Index>
+[[nodiscard]] inline CompactNeighborhood<Index> neighborhood_in(CompactWorkspace<MaxNeighbors, Index>& w,
+                                                                const CloudView& cloud, const Point& center) noexcept {
+  const bool all_have_indices = cloud.size - 1 <= static_cast<Index>(~Index{0});
+  return {cloud.points, center, w.index, all_have_indices ? static_cast<std::uint32_t>(MaxNeighbors) : 0u, 0, 0};
+}
+
+/// From the key point to a neighbour, in metres, and how far that is, squared: summed as (dx*dx + dy*dy) + dz*dz.
+struct Offset {
+  float dx, dy, dz, d2;
+};
+
+[[nodiscard]] inline Offset offset_of(const Point& p, const Point& center) noexcept {
+  const float dx = p.x - center.x;
+  const float dy = p.y - center.y;
+  const float dz = p.z - center.z;
+  return {dx, dy, dz, (rounded(dx * dx) + rounded(dy * dy)) + rounded(dz * dz)};
+}
+
+/// Neighbour `i`, one by one.
+[[nodiscard]] inline Offset offset_at(const Neighborhood& n, std::uint32_t i) noexcept {
+  return {n.dx[i], n.dy[i], n.dz[i], n.d2[i]};
+}
+template <class Index>
+[[nodiscard]] inline Offset offset_at(const CompactNeighborhood<Index>& n, std::uint32_t i) noexcept {
+  return offset_of(read(n.points, n.index[i]), n.center);
+}
+
+template <class Neighbors>
+[[nodiscard]] inline std::uint32_t index_at(const Neighbors& n, std::uint32_t i) noexcept {
+  return n.index[i];
 }
 
 /// One register of neighbours, from `i` on. What is left over at the end comes with copies of the key point (all
@@ -2723,31 +2830,46 @@ struct Offsets {
   simd::F32 dx, dy, dz, d2;
 };
 
-[[nodiscard, gnu::always_inline]] inline Offsets load_offsets(const Neighborhood& n, std::uint32_t i) noexcept {
+template <class Neighbors>
+[[nodiscard]] SHORTSHOT_INLINE Offsets load_offsets_one_by_one(const Neighbors& n, std::uint32_t i) noexcept {
+  float lanes[4][simd::lanes] = {};
+  for (std::uint32_t k = 0; k < simd::lanes && k < n.size - i; ++k) {
+    const Offset v = offset_at(n, i + k);
+    lanes[0][k] = v.dx;
+    lanes[1][k] = v.dy;
+    lanes[2][k] = v.dz;
+    lanes[3][k] = v.d2;
+  }
+  return {simd::load(lanes[0]), simd::load(lanes[1]), simd::load(lanes[2]), simd::load(lanes[3])};
+}
+
+[[nodiscard]] SHORTSHOT_INLINE Offsets load_offsets(const Neighborhood& n, std::uint32_t i) noexcept {
   if (n.size - i >= simd::lanes) {
     return {simd::load(n.dx + i), simd::load(n.dy + i), simd::load(n.dz + i), simd::load(n.d2 + i)};
   }
-  float rest[4][simd::lanes];
-  for (float(&lanes)[simd::lanes] : rest) simd::store(lanes, simd::all(0.0f));
-  for (std::uint32_t k = 0; k < n.size - i; ++k) {
-    rest[0][k] = n.dx[i + k];
-    rest[1][k] = n.dy[i + k];
-    rest[2][k] = n.dz[i + k];
-    rest[3][k] = n.d2[i + k];
-  }
-  return {simd::load(rest[0]), simd::load(rest[1]), simd::load(rest[2]), simd::load(rest[3])};
+  return load_offsets_one_by_one(n, i);
+}
+
+template <class Index>
+[[nodiscard]] SHORTSHOT_INLINE Offsets load_offsets(const CompactNeighborhood<Index>& n, std::uint32_t i) noexcept {
+  return load_offsets_one_by_one(n, i);
 }
 
 /// The same register's indices; 0 for what is left over.
-[[nodiscard, gnu::always_inline]] inline simd::I32 load_indices(const Neighborhood& n, std::uint32_t i) noexcept {
-  if (n.size - i >= simd::lanes) return simd::load(n.index + i);
-  std::uint32_t rest[simd::lanes] = {};
-  for (std::uint32_t k = 0; k < n.size - i; ++k) rest[k] = n.index[i + k];
-  return simd::load(rest);
+template <class Neighbors>
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 load_indices(const Neighbors& n, std::uint32_t i) noexcept {
+  std::uint32_t lanes[simd::lanes] = {};
+  for (std::uint32_t k = 0; k < simd::lanes && k < n.size - i; ++k) lanes[k] = index_at(n, i + k);
+  return simd::load(lanes);
+}
+
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 load_indices(const Neighborhood& n, std::uint32_t i) noexcept {
+  return n.size - i >= simd::lanes ? simd::load(n.index + i) : load_indices<Neighborhood>(n, i);
 }
 
 /// How many of the neighbours lie within a radius, the key point and its copies included.
-[[nodiscard]] inline std::uint32_t count_within(const Neighborhood& n, Radius radius) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline std::uint32_t count_within(const Neighbors& n, Radius radius) noexcept {
   simd::I32 counts{};
   std::uint32_t i = 0;
   for (; i < n.size; i += simd::lanes) {
@@ -2760,7 +2882,8 @@ namespace detail {
 
 /// What every estimate from a neighbourhood asks of its arguments; `view` gets the vector to the viewpoint, if there is
 /// one.
-[[nodiscard]] inline Status check_estimate(const Neighborhood& n, Radius radius, const float* towards_viewpoint,
+template <class Neighbors>
+[[nodiscard]] inline Status check_estimate(const Neighbors& n, Radius radius, const float* towards_viewpoint,
                                            float (&view)[3]) noexcept {
   const Status usable = check(radius);
   if (usable != Status::ok) return usable;
@@ -2771,129 +2894,100 @@ namespace detail {
 
 }  // namespace detail
 
+/// Write down neighbour `i`.
+inline void put(Neighborhood& n, std::uint32_t i, const Offset& v, std::uint32_t index) noexcept {
+  n.dx[i] = v.dx;
+  n.dy[i] = v.dy;
+  n.dz[i] = v.dz;
+  n.d2[i] = v.d2;
+  n.index[i] = index;
+}
+template <class Index>
+inline void put(CompactNeighborhood<Index>& n, std::uint32_t i, const Offset&, std::uint32_t index) noexcept {
+  n.index[i] = static_cast<Index>(index);
+}
+
 /// Offer one point of the cloud to the neighbourhood: THE membership rule, for every search. A point is a neighbour if
 /// its float squared distance is strictly below `radius_squared`; written so that NaN is refused.
-inline void offer(Neighborhood& out, const Point& p, std::uint32_t index, const Point& center,
+template <class Neighbors>
+inline void offer(Neighbors& out, const Point& p, std::uint32_t index, const Point& center,
                   float radius_squared) noexcept {
-  const float dx = p.x - center.x;
-  const float dy = p.y - center.y;
-  const float dz = p.z - center.z;
-  const float d2 = (rounded(dx * dx) + rounded(dy * dy)) + rounded(dz * dz);
-  if (!(d2 < radius_squared)) return;
+  const Offset v = offset_of(p, center);
+  if (!(v.d2 < radius_squared)) return;
   if (out.size < out.capacity) {
-    out.dx[out.size] = dx;
-    out.dy[out.size] = dy;
-    out.dz[out.size] = dz;
-    out.d2[out.size] = d2;
-    out.index[out.size] = index;
+    put(out, out.size, v, index);
     ++out.size;
   }
   ++out.found;
 }
 
 /// To be called by a search before it offers the first point.
-inline void clear(Neighborhood& out) noexcept {
+template <class Neighbors>
+inline void clear(Neighbors& out) noexcept {
   out.size = 0;
   out.found = 0;
 }
 
 /// To be returned by a search after it has offered the last point.
-[[nodiscard]] inline Status outcome(const Neighborhood& out) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline Status outcome(const Neighbors& out) noexcept {
   return out.found > out.capacity ? Status::too_many_neighbors : Status::ok;
 }
 
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
-// shortshot/ranking.hpp: the members of a neighbourhood that make its frame, and their rank in distance without
-// sorting.
+// shortshot/ranking.hpp: the neighbours' order by distance, without sorting.
 //
 // PCL sorts every neighbourhood because a tied vote over an axis' sign looks at the five members in the middle. Ties
-// are rare (2 to 5 key points in a hundred), so the order is asked for only then, and found by bisection in place.
+// are rare (2 to 5 key points in a hundred), so the order is asked for only then, and found by counting.
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// A member makes a frame: it lies strictly inside the frame's radius and not at the key point itself.
-[[nodiscard]] inline bool is_member(const Neighborhood& n, std::uint32_t i, Radius radius) noexcept {
-  return n.d2[i] < radius.squared && (n.dx[i] != 0.0f || n.dy[i] != 0.0f || n.dz[i] != 0.0f);
+/// Where a neighbour stands in the order: by squared distance (bits of floats >= 0 order as the floats do), then by
+/// index in the cloud. The key point and its copies come first, at 0.
+using Place = std::uint64_t;
+
+template <class Neighbors>
+[[nodiscard]] inline Place place_at(const Neighbors& n, std::uint32_t i) noexcept {
+  const Offset v = offset_at(n, i);
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &v.d2, sizeof bits);
+  if (bits == 0 && v.dx == 0.0f && v.dy == 0.0f && v.dz == 0.0f) return 0;
+  return (Place{bits} << 32 | index_at(n, i)) + 1;
 }
 
-/// A place in the order of members: by squared distance, then by index in the cloud (below all of them: -1).
-struct Place {
-  float d2;
-  std::int64_t index;
-};
-
-[[nodiscard]] inline bool before(Place a, Place b) noexcept {
-  return a.d2 < b.d2 || (a.d2 == b.d2 && a.index < b.index);
-}
-
-/// The first member behind a place; n.size if there is none.
-[[nodiscard]] inline std::uint32_t next_member(const Neighborhood& n, Radius radius, Place place) noexcept {
-  std::uint32_t best = n.size;
-  for (std::uint32_t i = 0; i < n.size; ++i) {
-    const Place candidate{n.d2[i], n.index[i]};
-    if (!before(place, candidate) || !is_member(n, i, radius)) continue;
-    if (best == n.size || before(candidate, {n.d2[best], n.index[best]})) best = i;
-  }
-  return best;
-}
-
-/// How many neighbours have a squared distance of at most `limit`.
-[[nodiscard]] inline int count_within(const Neighborhood& n, float limit) noexcept {
-  simd::I32 within{};
+/// How many neighbours stand before a place.
+template <class Neighbors>
+[[nodiscard]] inline int count_before(const Neighbors& n, Place limit) noexcept {
+  int count = 0;
   std::uint32_t i = 0;
-  for (; n.size - i >= simd::lanes; i += simd::lanes) {
-    within = increment(simd::all(limit) >= simd::load(n.d2 + i), within);
+  if (simd::lanes > 1 && limit << 32 == 0) {  // whoever is closer, whole registers at a time
+    const auto bits = static_cast<std::uint32_t>(limit >> 32);
+    float d2 = 0.0f;
+    std::memcpy(&d2, &bits, sizeof d2);
+    simd::I32 closer{};
+    for (; n.size - i >= simd::lanes; i += simd::lanes) {
+      closer = increment(load_offsets(n, i).d2 < simd::all(d2), closer);
+    }
+    count = sum(closer);
   }
-  int count = sum(within);
-  for (; i < n.size; ++i) count += n.d2[i] <= limit ? 1 : 0;
+  for (; i < n.size; ++i) count += place_at(n, i) < limit ? 1 : 0;
   return count;
 }
 
-/// The smallest number in [low, high] for which `enough` holds; it does for `high`, and for all above one for which it
-/// does.
-template <class Predicate>
-[[nodiscard]] inline std::uint32_t bisect(std::uint32_t low, std::uint32_t high, const Predicate& enough) noexcept {
-  while (low < high) {
-    const std::uint32_t middle = low + (high - low) / 2;
-    if (enough(middle)) {
-      high = middle;
-    } else {
-      low = middle + 1;
-    }
+/// A place with `rank` neighbours before it, found bit by bit; `rank` must be less than their number.
+template <class Neighbors>
+[[nodiscard]] inline Place place_of_rank(const Neighbors& n, int rank) noexcept {
+  Place place = 0;
+  for (Place bit = Place{1} << 62; bit != 0; bit >>= 1) {
+    const int before = count_before(n, place | bit);
+    if (before <= rank) place |= bit;
+    if (before == rank) break;
   }
-  return low;
-}
-
-/// The member of the given rank; rank 0 is the closest. The neighbourhood must have more members than that.
-[[nodiscard]] inline std::uint32_t member_of_rank(const Neighborhood& n, Radius radius, int rank) noexcept {
-  int copies = 0;  // of the key point: at distance 0, and within every limit
-  for (std::uint32_t i = 0; i < n.size; ++i) copies += n.d2[i] == 0.0f && !is_member(n, i, radius) ? 1 : 0;
-  const auto as_float = [](std::uint32_t bits) {
-    float value = 0.0f;
-    std::memcpy(&value, &bits, sizeof value);
-    return value;
-  };
-  // Bits of floats >= 0 order as the floats do.
-  std::uint32_t most = 0;
-  std::memcpy(&most, &radius.squared, sizeof most);
-  const auto within = [&](std::uint32_t bits) { return count_within(n, as_float(bits)) - copies; };
-  const std::uint32_t bits = bisect(0, most, [&](std::uint32_t limit) { return within(limit) > rank; });
-  const float d2 = as_float(bits);
-  const int closer = bits == 0 ? 0 : within(bits - 1);
-  if (rank == closer) return next_member(n, radius, {d2, -1});
-
-  const std::uint32_t index = bisect(0, 0xFFFFFFFFu, [&](std::uint32_t limit) {
-    int equally_far = 0;
-    for (std::uint32_t i = 0; i < n.size; ++i) {
-      equally_far += n.d2[i] == d2 && n.index[i] <= limit && is_member(n, i, radius) ? 1 : 0;
-    }
-    return equally_far > rank - closer;
-  });
-  return next_member(n, radius, {d2, static_cast<std::int64_t>(index) - 1});
+  return place;
 }
 
 }  // namespace detail
@@ -2907,135 +3001,105 @@ template <class Predicate>
 // (other bits with every libm) and both cost more flash than the rest of the frame. Rotations take the same steps for
 // every matrix, so a register's lanes hold as many matrices, each with the bits that it would have alone.
 
-#include <initializer_list>
-
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// Upper triangle of a symmetric matrix.
-struct Symmetric3 {
-  float xx, xy, xz, yy, yz, zz;
-};
-
-/// Eigenvalues in ascending order; vectors[i] belongs to values[i] and has unit length. Signs are the solver's.
-struct Eigen3 {
-  float values[3];
-  float vectors[3][3];
-};
-
-/// The same of one matrix in each lane.
+/// The upper triangle of a symmetric matrix in each lane: xx, xy, xz, yy, yz, zz.
 struct SymmetricLanes {
-  simd::F32 xx, xy, xz, yy, yz, zz;
-};
-struct EigenLanes {
-  simd::F32 values[3];
-  simd::F32 vectors[3][3];
+  simd::F32 entry[6];
 };
 
-/// One Jacobi rotation in the plane (p, q) that makes a[p][q] zero, in those lanes where that is worth while; the
-/// columns of v collect the rotations. Entries are at most 2. Returns whether it was worth while anywhere.
-inline bool rotate(simd::F32 (&a)[3][3], simd::F32 (&v)[3][3], int p, int q) noexcept {
+/// Eigenvectors of unit length, each followed by its eigenvalue, which ascend. Signs are the solver's.
+struct EigenLanes {
+  simd::F32 of[3][4];
+
+  [[nodiscard]] simd::F32 value(int i) const noexcept { return of[i][3]; }
+  [[nodiscard]] simd::F32 vector(int i, int k) const noexcept { return of[i][k]; }
+};
+
+/// One Jacobi rotation in the plane (p, q), in those lanes where it is worth while: it makes zero what couples the two
+/// axes. off[k] is the entry outside of the diagonal that is in neither row nor column k. Entries are at most 2.
+/// Returns whether it was worth while anywhere.
+SHORTSHOT_INLINE bool rotate(EigenLanes& e, simd::F32 (&off)[3], int p, int q) noexcept {
   using simd::all;
   using simd::F32;
+  F32& coupling = off[3 - p - q];
+  F32& value_p = e.of[p][3];
+  F32& value_q = e.of[q][3];
   // The tangent of an angle of at most an eighth of a turn.
-  const F32 off = a[p][q];
-  const F32 gap = a[q][q] - a[p][p];
+  const F32 gap = value_q - value_p;
   const F32 wide = simd::abs(gap);
-  const F32 high = simd::abs(off);
+  const F32 high = simd::abs(coupling);
   const simd::Mask turns = high - all(1e-12f) > wide * all(7e-9f);  // else no component moves by half its last bit
   if (!any(turns)) return false;
   const simd::Mask slight = all(8192.0f) * high < wide;  // float knows no better; most rotations but the first few
-  const F32 root = simd::sqrt(gap * gap + all(4.0f) * (off * off));
+  const F32 root = simd::sqrt(gap * gap + all(4.0f) * (coupling * coupling));
   const F32 sum = gap + simd::negate(gap < all(0.0f), root);
-  const F32 t = keep(turns, select(slight, off, off + off) / select(slight, gap, sum));
+  const F32 t = keep(turns, select(slight, coupling, coupling + coupling) / select(slight, gap, sum));
   const F32 c = all(1.0f) / simd::sqrt(t * t + all(1.0f));
   const F32 s = t * c;
-  const int r = 3 - p - q;  // the row that is not rotated
 
-  const F32 moved = t * off;
-  a[p][p] = a[p][p] - moved;
-  a[q][q] = a[q][q] + moved;
-  a[p][q] = a[q][p] = select(turns, all(0.0f), off);
-  const F32 rp = a[r][p];
-  const F32 rq = a[r][q];
-  a[r][p] = a[p][r] = c * rp - s * rq;
-  a[r][q] = a[q][r] = s * rp + c * rq;
-  for (int k = 0; k < 3; ++k) {
-    const F32 vp = v[k][p];
-    const F32 vq = v[k][q];
-    v[k][p] = c * vp - s * vq;
-    v[k][q] = s * vp + c * vq;
-  }
+  const F32 moved = t * coupling;
+  value_p = value_p - moved;
+  value_q = value_q + moved;
+  coupling = select(turns, all(0.0f), coupling);
+  F32* first = off + q;
+  F32* second = off + p;
+  each<4>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+    const F32 at_p = *first;
+    const F32 at_q = *second;
+    *first = c * at_p - s * at_q;
+    *second = s * at_p + c * at_q;
+    first = &e.of[p][k];
+    second = &e.of[q][k];
+  });
   return true;
 }
 
-/// The largest power of two not above the largest entry.
-[[nodiscard]] inline simd::F32 scale_of(const SymmetricLanes& m) noexcept {
-  simd::F32 largest = simd::all(1.17549435e-38f);
-  for (const simd::F32* entry : {&m.xx, &m.xy, &m.xz, &m.yy, &m.yz, &m.zz}) {
-    largest = simd::max(simd::abs(*entry), largest);
-  }
-  return from_bits(bits_of(largest) & simd::all_int(0x7F800000));
-}
-
 /// Eigen-decompositions. They converge quadratically: six sweeps are twice what any float matrix was seen to need.
-[[nodiscard]] inline EigenLanes decompose_lanes(const SymmetricLanes& m) noexcept {
+[[nodiscard]] inline EigenLanes decompose(const SymmetricLanes& m) noexcept {
   using simd::all;
   using simd::F32;
-  const F32 scale = scale_of(m);
+  F32 largest = all(1.17549435e-38f);
+  for (const F32& entry : m.entry) largest = simd::max(simd::abs(entry), largest);
+  const F32 scale = from_bits(bits_of(largest) & simd::all_int(0x7F800000));  // the power of two below it
   const F32 unit = all(1.0f) / scale;
-  const F32 zero = all(0.0f);
-  const F32 one = all(1.0f);
-  F32 a[3][3] = {{m.xx * unit, m.xy * unit, m.xz * unit},
-                 {m.xy * unit, m.yy * unit, m.yz * unit},
-                 {m.xz * unit, m.yz * unit, m.zz * unit}};
-  F32 v[3][3] = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
+  EigenLanes e;
+  F32 off[3];
+  const F32* entry = m.entry;
+  each<3>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
+    each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      e.of[i][k] = all(i == k ? 1.0f : 0.0f);
+      if (k >= i) (k == i ? e.of[i][3] : off[3 - i - k]) = *entry++ * unit;
+    });
+  });
   bool turned = true;
   for (int sweep = 0; sweep < 6 && turned; ++sweep) {
-    turned = rotate(a, v, 0, 1);
-    turned = rotate(a, v, 0, 2) || turned;
-    turned = rotate(a, v, 1, 2) || turned;
+    turned = false;
+    for (int p = 0; p < 2; ++p) {
+      for (int q = p + 1; q < 3; ++q) turned = rotate(e, off, p, q) || turned;
+    }
   }
 
-  const auto sort_pair = [&](int i, int j) {
-    const simd::Mask swap = a[j][j] < a[i][i];
-    const auto exchange = [&](F32& first, F32& second) {
-      const F32 before = first;
-      first = select(swap, second, first);
-      second = select(swap, before, second);
-    };
-    exchange(a[i][i], a[j][j]);
-    for (F32(&row)[3] : v) exchange(row[i], row[j]);
-  };
-  sort_pair(0, 1);
-  sort_pair(1, 2);
-  sort_pair(0, 1);
-
-  EigenLanes result;
-  for (int i = 0; i < 3; ++i) {
-    const F32 length = simd::sqrt(v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
-    result.values[i] = a[i][i] * scale;
-    for (int k = 0; k < 3; ++k) result.vectors[i][k] = v[k][i] / length;
-  }
-  return result;
-}
-
-/// Eigen-decomposition of one matrix.
-[[nodiscard]] inline Eigen3 decompose(const Symmetric3& m) noexcept {
-  using simd::all;
-  const EigenLanes lanes = decompose_lanes({all(m.xx), all(m.xy), all(m.xz), all(m.yy), all(m.yz), all(m.zz)});
-  const auto first = [](simd::F32 number) {
-    float values[simd::lanes];
-    simd::store(values, number);
-    return values[0];
-  };
-  Eigen3 result;
-  for (int i = 0; i < 3; ++i) {
-    result.values[i] = first(lanes.values[i]);
-    for (int k = 0; k < 3; ++k) result.vectors[i][k] = first(lanes.vectors[i][k]);
-  }
-  return result;
+  each<3>([&](auto step) SHORTSHOT_INLINE_LAMBDA {  // sort: exchange 0 and 1, 1 and 2, 0 and 1
+    F32(&first)[4] = e.of[step % 2];
+    F32(&second)[4] = e.of[step % 2 + 1];
+    const simd::Mask swap = second[3] < first[3];
+    if (!any(swap)) return;
+    each<4>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      const F32 before = first[k];
+      first[k] = select(swap, second[k], before);
+      second[k] = select(swap, before, second[k]);
+    });
+  });
+  each<3>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
+    F32(&v)[4] = e.of[i];
+    const F32 length = simd::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    each<3>([&](auto k) { v[k] = v[k] / length; });
+    v[3] = v[3] * scale;
+  });
+  return e;
 }
 
 }  // namespace detail
@@ -3062,22 +3126,20 @@ inline constexpr int min_frame_neighbors = 5;
 
 /// Is this a frame one can describe in: finite, and orthonormal within 1e-3?
 [[nodiscard]] inline Status check(const Frame& frame) noexcept {
-  if (!math::is_finite(frame.x) || !math::is_finite(frame.y) || !math::is_finite(frame.z)) return Status::bad_frame;
-  const auto near = [](float value, float target) { return value > target - 1e-3f && value < target + 1e-3f; };
-  const bool orthonormal = near(dot(frame.x, frame.x), 1.0f) && near(dot(frame.y, frame.y), 1.0f) &&
-                           near(dot(frame.z, frame.z), 1.0f) && near(dot(frame.x, frame.y), 0.0f) &&
-                           near(dot(frame.x, frame.z), 0.0f) && near(dot(frame.y, frame.z), 0.0f);
-  return orthonormal ? Status::ok : Status::bad_frame;
+  const float(*const axes[3])[3] = {&frame.x, &frame.y, &frame.z};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k <= i; ++k) {
+      const float error = dot(*axes[i], *axes[k]) - (i == k ? 1.0f : 0.0f);
+      if (!math::is_finite(error) || !(error > -1e-3f && error < 1e-3f)) return Status::bad_frame;
+    }
+  }
+  return Status::ok;
 }
 
 namespace detail {
 
-inline void negate(float (&axis)[3]) noexcept {
-  for (float& component : axis) component = 0.0f - component;
-}
-
-/// A neighbour within the frame's radius is a member, unless it is a copy of the key point. Copies move no sum; where
-/// members are counted, the copies' number is taken off.
+/// Members, those who make a frame, lie strictly inside its radius and not at the key point itself: the key point and
+/// its copies move no sum, but must not be counted.
 [[nodiscard]] inline simd::Mask within(const Offsets& v, Radius radius) noexcept {
   return v.d2 < simd::all(radius.squared);
 }
@@ -3086,25 +3148,24 @@ inline void negate(float (&axis)[3]) noexcept {
 struct Census {
   float farthest_d2;
   int members;
-  int copies;  ///< of the key point, with those that fill up the last register
 };
 
-[[nodiscard]] inline Census take_census(const Neighborhood& n, Radius radius) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline Census take_census(const Neighbors& n, Radius radius) noexcept {
   const simd::F32 zero = simd::all(0.0f);
   simd::F32 farthest = zero;
-  simd::I32 inside{}, copies{};
+  simd::I32 members{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
-    const simd::Mask near = within(v, radius);
-    farthest = simd::max(farthest, keep(near, v.d2));
-    inside = increment(near, inside);
-    if (any(zero >= v.d2)) {  // seldom: the key point itself, and whatever is so close that its square is lost
-      const simd::Mask apart = (v.dx != zero) | (v.dy != zero) | (v.dz != zero);
-      copies = increment(near ^ (near & apart), copies);
+    simd::Mask member = within(v, radius);
+    if (simd::lanes == 1 || any(zero >= v.d2)) {  // seldom: the key point, and whatever is so close that d2 is lost
+      member = member & (simd::abs(v.dx) + simd::abs(v.dy) + simd::abs(v.dz) > zero);
     }
+    if (simd::lanes == 1 && !any(member)) continue;
+    farthest = simd::max(farthest, keep(member, v.d2));
+    members = increment(member, members);
   }
-  const int not_members = sum(copies);
-  return {simd::largest(farthest), sum(inside) - not_members, not_members};
+  return {simd::largest(farthest), sum(members)};
 }
 
 /// How members are brought to fixed point: coordinates times `unit`, a power of two (so that nothing is rounded) that
@@ -3120,85 +3181,89 @@ struct MemberScale {
   const float farthest = root > 1e-19f ? root : 1e-19f;
   const float unit = 0.5f / math::power_of_two_below(farthest);
   // The largest w |v|^2 with w = 1 - |v| / R: at |v| = 2/3 R, or at the farthest member if that is closer.
-  const float place = 3.0f * farthest > 2.0f * radius.value ? radius.value * 0.6667f : farthest;
+  const float largest_at = radius.value * 0.6667f;
+  const float place = farthest > largest_at ? largest_at : farthest;
   float bound = (1.0f - place / radius.value) * (place * unit) * (place * unit);
-  int bits = 0;
-  for (; bound < 0.49f && bits > -4; bound *= 2.0f) --bits;
-  return {unit, fixed_point_scale(n, bits)};
+  float scale = fixed_point_scale(n);
+  for (int bits = 0; bound < 0.49f && bits < 4; ++bits, bound *= 2.0f) scale *= 2.0f;
+  return {unit, scale};
 }
 
 /// Pass 2: sum of w v v^T over the members (PCL's matrix but for its scale, which moves no eigenvector).
-[[nodiscard]] inline Symmetric3 weighted_scatter(const Neighborhood& n, Radius radius, float farthest_d2) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline SymmetricLanes weighted_scatter(const Neighbors& n, Radius radius, float farthest_d2) noexcept {
   using simd::all;
   using simd::F32;
   const MemberScale to = member_scale(n.size, farthest_d2, radius);
   const F32 unit = all(to.unit);
   const F32 scale = all(to.scale);
   const F32 inverse = all(1.0f / radius.value);
-  simd::I32 xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+  simd::I32 sums[6] = {};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
-    const F32 x = v.dx * unit;
-    const F32 y = v.dy * unit;
-    const F32 z = v.dz * unit;
+    const F32 at[3] = {v.dx * unit, v.dy * unit, v.dz * unit};
     const F32 w = keep(within(v, radius), (all(1.0f) - simd::sqrt(v.d2) * inverse) * scale);
-    const F32 wx = w * x;
-    const F32 wy = w * y;
-    xx = xx + round_to_int(wx * x);
-    xy = xy + round_to_int(wx * y);
-    xz = xz + round_to_int(wx * z);
-    yy = yy + round_to_int(wy * y);
-    yz = yz + round_to_int(wy * z);
-    zz = zz + round_to_int(w * z * z);
+    each<3>([&](auto row) SHORTSHOT_INLINE_LAMBDA {
+      const F32 weighted = w * at[row];
+      each<3>([&](auto column) SHORTSHOT_INLINE_LAMBDA {
+        if (column < row) return;
+        simd::I32& entry = sums[row * (5 - row) / 2 + column];  // of the upper triangle, row by row
+        entry = entry + round_to_int(weighted * at[column]);
+      });
+    });
   }
-  const auto total = [](simd::I32 lanes) { return static_cast<float>(sum(lanes)); };
-  return {total(xx), total(xy), total(xz), total(yy), total(yz), total(zz)};
+  SymmetricLanes total;
+  each<6>([&](auto k) { total.entry[k] = all(static_cast<float>(sum(sums[k]))); });
+  return total;
 }
 
-/// Pass 3: for each of two axes, how many members have v . axis >= 0.
+/// Pass 3: for each of two axes, how many members have v . axis < 0.
 struct AxisVotes {
   int x;
   int z;
 };
 
-[[nodiscard]] inline AxisVotes count_votes(const Neighborhood& n, Radius radius, int copies, const float (&x)[3],
-                                           const float (&z)[3]) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline AxisVotes count_votes_against(const Neighbors& n, Radius radius, const float (&x)[3],
+                                                   const float (&z)[3]) noexcept {
   using simd::all;
   using simd::F32;
   const F32 x_axis[3] = {all(x[0]), all(x[1]), all(x[2])};
   const F32 z_axis[3] = {all(z[0]), all(z[1]), all(z[2])};
-  simd::I32 for_x{}, for_z{};
+  simd::I32 against_x{}, against_z{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
     const simd::Mask near = within(v, radius);
     const F32 along_x = (v.dx * x_axis[0] + v.dz * x_axis[2]) + v.dy * x_axis[1];
     const F32 along_z = (v.dx * z_axis[0] + v.dz * z_axis[2]) + v.dy * z_axis[1];
-    for_x = increment((along_x >= all(0.0f)) & near, for_x);
-    for_z = increment((along_z >= all(0.0f)) & near, for_z);
+    against_x = increment((along_x < all(0.0f)) & near, against_x);
+    against_z = increment((along_z < all(0.0f)) & near, against_z);
   }
-  return {sum(for_x) - copies, sum(for_z) - copies};
+  return {sum(against_x), sum(against_z)};
 }
 
 /// PCL's answer to a tied vote: of the five members in the middle of the order by distance, do at least three have
 /// v . axis > 0?
-[[nodiscard]] inline bool middle_votes_for(const Neighborhood& n, Radius radius, const Census& census,
-                                           const float (&axis)[3]) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline bool middle_votes_for(const Neighbors& n, int members, const float (&axis)[3]) noexcept {
+  const int rank = count_before(n, 1) + members / 2 - 2;  // behind the key point and its copies
+  const Place first = place_of_rank(n, rank);
+  const Place end = place_of_rank(n, rank + 5);
   int votes = 0;
-  std::uint32_t i = member_of_rank(n, radius, census.members / 2 - 2);
-  for (int k = 0; k < 5 && i < n.size; ++k) {
-    const float v[3] = {n.dx[i], n.dy[i], n.dz[i]};
-    votes += dot(v, axis) > 0.0f ? 1 : 0;
-    i = next_member(n, radius, {n.d2[i], n.index[i]});
+  for (std::uint32_t i = 0; i < n.size; ++i) {
+    if (place_at(n, i) - first >= end - first) continue;
+    const Offset v = offset_at(n, i);
+    votes += dot({v.dx, v.dy, v.dz}, axis) > 0.0f ? 1 : 0;
   }
   return votes >= 3;
 }
 
 /// Turn an axis towards the majority of the members.
-inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& census, int votes,
-                           float (&axis)[3]) noexcept {
-  const bool tied = 2 * votes == census.members;
-  const bool keep = tied ? middle_votes_for(n, radius, census, axis) : 2 * votes > census.members;
-  if (!keep) negate(axis);
+template <class Neighbors>
+inline void orient_by_vote(const Neighbors& n, int members, int against, float (&axis)[3]) noexcept {
+  const int lead = 2 * against - members;
+  if (lead == 0 ? middle_votes_for(n, members, axis) : lead < 0) return;
+  for (float& component : axis) component = 0.0f - component;
 }
 
 }  // namespace detail
@@ -3216,7 +3281,8 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& c
 /// neighbourhoods). `frame` is zeroed then. On an exactly planar neighbourhood all members lie at z = 0 and the sign of
 /// z is the solver's unless a viewpoint is given. No allocation, reentrant. The result does not depend on the order of
 /// the neighbours.
-[[nodiscard]] inline Status estimate_frame(const Neighborhood& n, Radius radius, Frame& frame,
+template <class Neighbors>
+[[nodiscard]] inline Status estimate_frame(const Neighbors& n, Radius radius, Frame& frame,
                                            const float* towards_viewpoint = nullptr) noexcept {
   frame = Frame{};
   float view[3] = {};
@@ -3225,25 +3291,23 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& c
   const detail::Census census = detail::take_census(n, radius);
   if (census.members < min_frame_neighbors) return Status::too_few_neighbors;
 
-  const detail::Eigen3 eigen = detail::decompose(detail::weighted_scatter(n, radius, census.farthest_d2));
+  const detail::EigenLanes eigen = detail::decompose(detail::weighted_scatter(n, radius, census.farthest_d2));
   // What float can tell apart, and what the rounding of the members to integers may have moved.
-  const float resolution = rounded(1e-6f * eigen.values[2]) + rounded(0.5f * static_cast<float>(census.members));
-  if (!(eigen.values[2] - eigen.values[1] > resolution && eigen.values[1] - eigen.values[0] > resolution)) {
+  const simd::F32 resolution =
+      simd::all(1e-6f) * eigen.value(2) + simd::all(rounded(0.5f * static_cast<float>(census.members)));
+  if (!any((eigen.value(2) - eigen.value(1) > resolution) & (eigen.value(1) - eigen.value(0) > resolution))) {
     return Status::ambiguous_frame;
   }
 
   for (int k = 0; k < 3; ++k) {
-    frame.x[k] = eigen.vectors[2][k];
-    frame.z[k] = eigen.vectors[0][k];
+    frame.x[k] = simd::largest(eigen.vector(2, k));
+    frame.z[k] = simd::largest(eigen.vector(0, k));
   }
-  const detail::AxisVotes votes = detail::count_votes(n, radius, census.copies, frame.x, frame.z);
-  detail::orient_by_vote(n, radius, census, votes.x, frame.x);
+  detail::AxisVotes against = detail::count_votes_against(n, radius, frame.x, frame.z);
   const float towards = dot(view, frame.z);
-  if (towards == 0.0f) {  // no viewpoint, or one that does not tell
-    detail::orient_by_vote(n, radius, census, votes.z, frame.z);
-  } else if (towards < 0.0f) {
-    detail::negate(frame.z);
-  }
+  if (towards != 0.0f) against.z = towards < 0.0f ? census.members : 0;  // a viewpoint that tells outvotes all members
+  detail::orient_by_vote(n, census.members, against.x, frame.x);
+  detail::orient_by_vote(n, census.members, against.z, frame.z);
   frame.y[0] = rounded(frame.z[1] * frame.x[2]) - rounded(frame.z[2] * frame.x[1]);
   frame.y[1] = rounded(frame.z[2] * frame.x[0]) - rounded(frame.z[0] * frame.x[2]);
   frame.y[2] = rounded(frame.z[0] * frame.x[1]) - rounded(frame.z[1] * frame.x[0]);
@@ -3257,28 +3321,22 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// Neighbours per chunk: of this length are all arrays that the kernel has on the stack.
-inline constexpr std::uint32_t chunk_size = 64;
-static_assert(chunk_size % simd::lanes == 0, "registers do not reach beyond the end of a chunk");
-
 /// A chunk of neighbours in the frame's spherical coordinates. Only those that are described: passes need no masks.
-template <bool WithNormals>
+template <bool WithNormals, std::uint32_t Room>
 struct Chunk {
+  static_assert(Room >= simd::lanes && Room <= 1024 && Room % simd::lanes == 0,
+                "ChunkSize supports multiples of simd::lanes up to 1024: registers do not reach beyond its end");
+  static constexpr bool with_normals = WithNormals;
+  static constexpr std::uint32_t room = Room;
   std::uint32_t size;
-  std::uint32_t index[chunk_size];                        ///< in the cloud
-  float coordinates[(WithNormals ? 4 : 3) * chunk_size];  // one array, so that one register holds the place in all
+  std::uint32_t index[Room];                        ///< in the cloud
+  float coordinates[(WithNormals ? 4 : 3) * Room];  // one array, so that one register holds the place in all
 
-  /// From neighbour `i` on: the distance over the radius, 0..1; the angle from +z over pi, 0..1; and the angle from -x,
-  /// counter-clockwise, in turns, 0..1, or below 0 where a convention with poles has none.
-  [[nodiscard]] const float* distance(std::uint32_t i) const noexcept { return coordinates + i; }
-  [[nodiscard]] const float* elevation(std::uint32_t i) const noexcept { return coordinates + i + chunk_size; }
-  [[nodiscard]] const float* azimuth(std::uint32_t i) const noexcept {
-    return coordinates + i + 2 * std::size_t{chunk_size};
-  }
-  /// The normal's component along z, -1..1.
-  [[nodiscard]] const float* cosine(std::uint32_t i) const noexcept {
-    static_assert(WithNormals, "there is one only where a part asks for normals");
-    return coordinates + i + 3 * std::size_t{chunk_size};
+  /// From neighbour `i` on: coordinate 0, the distance over the radius, 0..1; 1, the angle from +z over pi, 0..1; 2,
+  /// the angle from -x, counter-clockwise, in turns, 0..1, or below 0 where a convention with poles has none; and 3,
+  /// the normal's component along z, -1..1.
+  [[nodiscard]] const float* coordinate(int k, std::uint32_t i) const noexcept {
+    return coordinates + i + static_cast<std::size_t>(k) * Room;
   }
 };
 
@@ -3290,12 +3348,12 @@ template <class Cells>
 }
 
 /// Which of these distances (over the radius) are as close to the border or the middle of a shell as their rounding?
-/// All of both are multiples of 1 / `Borders`.
-template <int Borders>
-[[nodiscard]] inline simd::Mask near_border(simd::F32 distance) noexcept {
-  const simd::F32 position = distance * simd::all(static_cast<float>(Borders));
-  const simd::F32 nearest = to_float(round_to_int(position));
-  return simd::all(1e-6f * static_cast<float>(Borders)) > simd::abs(position - nearest);
+/// All of both are multiples of 1 / `borders`.
+[[nodiscard]] SHORTSHOT_INLINE simd::Mask near_border(simd::F32 distance, float borders) noexcept {
+  const simd::F32 position = distance * simd::all(borders);
+  const simd::F32 whole = simd::all(12582912.0f);  // 1.5 * 2^23: sums with it are rounded to whole numbers
+  const simd::F32 nearest = (position + whole) - whole;
+  return simd::all(1e-6f * borders) > simd::abs(position - nearest);
 }
 
 /// One register of coordinates in the frame, each rounded as the published code rounds it: x + z first, then y.
@@ -3318,30 +3376,22 @@ struct FrameLanes {
 
 /// Distances over the radius. Points of a regular grid lie exactly on the borders of shells, where one bit decides
 /// which neighbouring shell gets a vote: there, and only there, they are computed with more bits than a float has.
-template <int Borders>
-[[nodiscard, gnu::always_inline]] inline simd::F32 relative_distance(const Offsets& v, const Local& local,
-                                                                     Radius radius) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 relative_distance(const Offsets& v, const Local& local, Radius radius,
+                                                           float borders) noexcept {
   const simd::F32 inverse = simd::all(1.0f / radius.value);
   const simd::F32 distance = simd::sqrt(v.d2) * inverse;
-  if constexpr (Borders > 1) {
-    const simd::Mask near = near_border<Borders>(distance);
-    if (any(near)) {
-      const float splitter = math::length_splitter(radius.value);
-      const simd::F32 exact = math::length(local.x, local.y, local.z, splitter) * inverse;
-      // A frame that is not quite orthonormal must not move its neighbours from border to border.
-      const simd::Mask same = simd::all(2e-6f) > simd::abs(exact - distance);
-      return select(near & same, simd::min(exact, simd::all(1.0f)), distance);
-    }
+  const simd::Mask near = near_border(distance, borders);
+  if (any(near)) {
+    const float splitter = math::length_splitter(radius.value);
+    const simd::F32 exact = math::length(local.x, local.y, local.z, splitter) * inverse;
+    // A frame that is not quite orthonormal must not move its neighbours from border to border.
+    const simd::Mask same = simd::all(2e-6f) > simd::abs(exact - distance);
+    return select(near & same, simd::min(exact, simd::all(1.0f)), distance);
   }
   return distance;
 }
 
-/// The neighbours of one chunk: four stretches of the neighbourhood, `stride` apart, of a quarter chunk each.
-/// Neighbours that follow each other lie in the same cells, where each addition would wait for the one before; a chunk
-/// from four places has others to add in between. (Sums do not depend on the order.) The last chunk has what is left,
-/// in one stretch.
-inline constexpr std::uint32_t stretches_of_full_chunk = 4;
-
+/// The neighbours of one chunk: `count` stretches of the neighbourhood, `stride` apart, of `length` each.
 struct Stretches {
   std::uint32_t first;
   std::uint32_t stride;
@@ -3349,11 +3399,20 @@ struct Stretches {
   std::uint32_t length;
 };
 
+/// Four stretches for each chunk that is full, where there are lanes. Neighbours that follow each other lie in the same
+/// cells, where each addition would wait for the one before; a chunk from four places has others to add in between.
+/// (Sums do not depend on the order.) The last chunk has what is left, in one stretch; and so has every chunk of a
+/// small CPU, which waits for nothing.
+inline constexpr std::uint32_t stretches_of_full_chunk = 4;
+
+template <std::uint32_t ChunkSize>
 [[nodiscard]] inline Stretches stretches_of_chunk(std::uint32_t chunk, std::uint32_t neighbors) noexcept {
-  constexpr std::uint32_t length = chunk_size / stretches_of_full_chunk;
-  const std::uint32_t full_chunks = neighbors / chunk_size;
-  if (chunk < full_chunks) return {chunk * length, full_chunks * length, stretches_of_full_chunk, length};
-  return {chunk * chunk_size, 0, 1, neighbors - chunk * chunk_size};
+  constexpr std::uint32_t length = ChunkSize / stretches_of_full_chunk;
+  constexpr bool spread = simd::lanes > 1 && length > 0 && length % simd::lanes == 0;
+  const std::uint32_t full_chunks = neighbors / ChunkSize;
+  if (spread && chunk < full_chunks) return {chunk * length, full_chunks * length, stretches_of_full_chunk, length};
+  const std::uint32_t left = neighbors - chunk * ChunkSize;
+  return {chunk * ChunkSize, 0, 1, left < ChunkSize ? left : ChunkSize};
 }
 
 /// One register of neighbours in the coordinates of a chunk, and which of them are described.
@@ -3362,22 +3421,25 @@ struct Located {
   simd::Mask described;
 };
 
-template <class D, class Normals>
-[[nodiscard, gnu::always_inline]] inline Located locate_register(const Offsets& v, simd::I32 index,
-                                                                 const FrameLanes& frame, Radius radius,
-                                                                 const Normals& normals) noexcept {
+template <class Cells, bool ExactShells, bool WithNormals, class Normals>
+[[nodiscard]] SHORTSHOT_INLINE Located locate_register(const Offsets& v, simd::I32 index, const FrameLanes& frame,
+                                                       Radius radius, float borders, const Normals& normals) noexcept {
   using simd::all;
   const Local local{frame.x.along(v), frame.y.along(v), frame.z.along(v)};
   Located located{};
-  located.distance = relative_distance<D::shell_borders>(v, local, radius);
+  if constexpr (ExactShells) {
+    located.distance = relative_distance(v, local, radius, borders);
+  } else {
+    located.distance = simd::sqrt(v.d2) * all(1.0f / radius.value);
+  }
   const simd::F32 from_axis = simd::sqrt(local.x * local.x + local.y * local.y);
   located.elevation = math::elevation(from_axis, local.z);
   located.azimuth = math::azimuth(local.x, local.y);
-  located.described = are_described<typename D::Cells>(v.d2, radius);
-  if constexpr (D::Cells::has_poles) {
+  located.described = are_described<Cells>(v.d2, radius);
+  if constexpr (Cells::has_poles) {
     located.azimuth = select(from_axis > all(0.0f), located.azimuth, all(-1.0f));
   }
-  if constexpr (D::needs_normals) {
+  if constexpr (WithNormals) {
     std::uint32_t indices[simd::lanes];
     simd::store(indices, index);
     const simd::F32 cosine = frame.z.along(normals(indices));
@@ -3387,43 +3449,48 @@ template <class D, class Normals>
   return located;
 }
 
-/// Neighbours into a chunk.
-template <class D, class Normals>
-[[gnu::noinline]] inline void locate(const Neighborhood& all, const Stretches& stretches, const Frame& frame,
-                                     Radius radius, const Normals& normals, Chunk<D::needs_normals>& chunk) noexcept {
-  const Neighborhood n = all;  // a local: no store to the chunk can change its pointers
+/// One register of neighbours behind the first `size` of a chunk; `packing` leaves out those that are not described.
+template <class Chunk, class... Packing>
+SHORTSHOT_INLINE void append(Chunk& chunk, std::uint32_t size, simd::I32 index, const Located& located,
+                             const Packing&... packing) noexcept {
+  simd::store(chunk.index + size, index, packing...);
+  float* const coordinates = chunk.coordinates + size;
+  simd::store(coordinates, located.distance, packing...);
+  simd::store(coordinates + Chunk::room, located.elevation, packing...);
+  simd::store(coordinates + 2 * std::size_t{Chunk::room}, located.azimuth, packing...);
+  if constexpr (Chunk::with_normals) {
+    simd::store(coordinates + 3 * std::size_t{Chunk::room}, located.cosine, packing...);
+  }
+}
+
+/// Neighbours into a chunk. (Nothing here depends on the descriptor but through the arguments: many of them share
+/// this.)
+template <class Cells, bool ExactShells, class Neighbors, class Normals, class Chunk>
+[[gnu::noinline]] inline void locate(const Neighbors& all, const Stretches& stretches, const Frame& frame,
+                                     Radius radius, float borders, const Normals& normals, Chunk& chunk) noexcept {
+  const Neighbors n = all;  // a local: no store to the chunk can change its pointers
   const FrameLanes axes{AxisLanes(frame.x), AxisLanes(frame.y), AxisLanes(frame.z)};
   std::uint32_t size = 0;
   for (std::uint32_t k = 0; k < stretches.count; ++k) {
     const std::uint32_t first = stretches.first + k * stretches.stride;
     const std::uint32_t end = first + stretches.length;
     for (std::uint32_t i = first; i < end; i += simd::lanes) {
-      const Offsets v = load_offsets(n, i);
       const simd::I32 index = load_indices(n, i);
-      const Located now = locate_register<D>(v, index, axes, radius, normals);
-      const auto append = [&](const auto&... packing) {
-        simd::store(chunk.index + size, index, packing...);
-        float* const coordinates = chunk.coordinates + size;
-        simd::store(coordinates, now.distance, packing...);
-        simd::store(coordinates + chunk_size, now.elevation, packing...);
-        simd::store(coordinates + 2 * std::size_t{chunk_size}, now.azimuth, packing...);
-        if constexpr (D::needs_normals) {
-          simd::store(coordinates + 3 * std::size_t{chunk_size}, now.cosine, packing...);
-        }
-      };
+      const Located now = locate_register<Cells, ExactShells, Chunk::with_normals>(load_offsets(n, i), index, axes,
+                                                                                   radius, borders, normals);
       if (every(now.described)) {
-        append();
+        append(chunk, size, index, now);
         size += static_cast<std::uint32_t>(simd::lanes);
-      } else {
+      } else if constexpr (simd::lanes > 1) {
         const simd::Packing packing = simd::packing(now.described);
-        append(packing);
+        append(chunk, size, index, now, packing);
         size += packing.count;
       }
     }
   }
   chunk.size = size;
   // What passes read beyond the end must be colours that exist.
-  for (; size % simd::lanes != 0; ++size) chunk.index[size] = n.index[stretches.first];
+  for (; size % simd::lanes != 0; ++size) chunk.index[size] = index_at(n, stretches.first);
 }
 
 }  // namespace detail
@@ -3434,11 +3501,8 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// Axes of a part: three of its grid, and the histogram's where it has one. The votes of a point for it.
-template <class Part>
-inline constexpr int axes_of = Part::has_histogram ? 4 : 3;
 template <class Voting, class Part>
-inline constexpr int votes_of = Voting::template votes<axes_of<Part>>;
+inline constexpr int votes_of = Voting::template votes<Part::axis_count>;
 
 /// The signal of Occupancy: none.
 struct NoSignal {
@@ -3452,14 +3516,14 @@ struct NormalSignal {
   explicit NormalSignal(const Colors&) noexcept {}
   template <class Chunk>
   [[nodiscard]] simd::F32 operator()(const Chunk& chunk, std::uint32_t i) const noexcept {
-    return simd::load(chunk.cosine(i)) * simd::all(0.5f) + simd::all(0.5f);
+    return simd::load(chunk.coordinate(3, i)) * simd::all(0.5f) + simd::all(0.5f);
   }
 };
 
 /// The signal of ColorDistance: how far neighbours' colours are from the key point's.
 template <class Colors>
 struct ColorSignal {
-  Colors colors;  // a copy: no store to the chunk can change it
+  std::conditional_t<simd::lanes == 1, const Colors&, Colors> colors;  // in lanes a copy, which no store can change
   LabLanes reference;
   explicit ColorSignal(const Colors& source) noexcept : colors(source), reference(in_all_lanes(source.reference)) {}
   template <class Chunk>
@@ -3472,41 +3536,65 @@ template <class Part, class Colors>
 using SignalOf = std::conditional_t<Part::Signal::needs_colors, ColorSignal<Colors>,
                                     std::conditional_t<Part::Signal::needs_normals, NormalSignal, NoSignal>>;
 
-/// Shares of one register of neighbours along the axes of a grid.
-struct GridShares {
-  simd::I32 cell;  ///< of all three axes
-  Share axes[3];   ///< their cells left out
+/// The share along axis `k` of a part's grid of what lies at a chunk's coordinate `k`.
+template <class Voting, class Part>
+[[nodiscard]] SHORTSHOT_INLINE Share share_along_axis(const Axis& axis, int k, simd::F32 coordinate,
+                                                      const VoteUnit& unit) noexcept {
+  using Cells = typename Part::Cells;
+  const simd::F32 along = k == 1 ? Cells::elevation(coordinate) : coordinate;
+  const simd::F32 cells = k == 0 ? Part::Scale::position(axis, along) : along * simd::all(axis.length());
+  simd::I32 position = Cells::position(cells);
+  if (Cells::has_poles && k == 2) position = invert(is_negative(bits_of(coordinate)), position);  // 0 to -1: nowhere
+  return Voting::split(axis, position, unit);
+}
+
+/// One register of a chunk's neighbours in the frame's spherical coordinates.
+struct Coordinates {
+  simd::F32 of[3];
 };
 
-/// The shares of a chunk's neighbours, from `i` on, in the grid of a part if every cell of it had `Values` values.
-template <class Voting, class Part, int Values, class Chunk>
-[[nodiscard, gnu::always_inline]] inline GridShares share_among_cells(const Chunk& chunk, std::uint32_t i,
-                                                                      const VoteUnit& unit) noexcept {
-  using simd::all;
-  using R = typename Part::template RadialAxis<Values>;
-  using E = typename Part::template ElevationAxis<Values>;
-  using A = typename Part::template AzimuthAxis<Values>;
-  using Cells = typename Part::Cells;
-  const simd::F32 shells = Part::Scale::template position<R::cells>(simd::load(chunk.distance(i)), R::one);
-  const simd::F32 elevation = Cells::elevation(simd::load(chunk.elevation(i)));
-  const simd::F32 azimuth = simd::load(chunk.azimuth(i));
-  const auto scaled = [](simd::F32 fraction, int cells, float one) {
-    return Cells::position(fraction * all(static_cast<float>(cells) * one));
-  };
-  simd::I32 around = scaled(azimuth, A::cells, A::one);
-  if constexpr (Cells::has_poles) around = invert(is_negative(bits_of(azimuth)), around);  // 0 to -1: nowhere
-  GridShares shares{
-      {},
-      {Voting::template split<R>(Cells::position(shells), unit),
-       Voting::template split<E>(scaled(elevation, E::cells, E::one), unit), Voting::template split<A>(around, unit)}};
-  shares.cell = (shares.axes[0].cell + shares.axes[1].cell) + shares.axes[2].cell;
+template <class Chunk>
+[[nodiscard]] SHORTSHOT_INLINE Coordinates coordinates_at(const Chunk& chunk, std::uint32_t i) noexcept {
+  return {{simd::load(chunk.coordinate(0, i)), simd::load(chunk.coordinate(1, i)), simd::load(chunk.coordinate(2, i))}};
+}
+
+/// The shares of a point along all axes of a part, those of the grid first.
+struct PointShares {
+  Share axes[4];
+};
+
+/// The shares in a part's grid if every cell of it had `Values` values.
+template <class Voting, class Part, int Values>
+[[nodiscard]] SHORTSHOT_INLINE PointShares grid_shares(const Coordinates& at, const VoteUnit& unit) noexcept {
+  PointShares shares;
+  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+    shares.axes[k] = share_along_axis<Voting, Part>(Part::template axes<Values>[k], k, at.of[k], unit);
+  });
   return shares;
 }
 
-/// A share of `Factor` times as many values a cell.
+/// The same in a grid whose cells have `Factor` times as many values; the cell of all axes is the first one's.
 template <int Factor>
-[[nodiscard, gnu::always_inline]] inline Share widened(const Share& share) noexcept {
-  return {simd::all_int(0), times<Factor>(share.step), share.twice_partner, share.alone};
+[[nodiscard]] SHORTSHOT_INLINE PointShares widened(const PointShares& shares) noexcept {
+  PointShares wide = shares;
+  wide.axes[0].cell = times((shares.axes[0].cell + shares.axes[1].cell) + shares.axes[2].cell, Factor);
+  wide.axes[1].cell = wide.axes[2].cell = simd::all_int(0);
+  wide.axes[0].step = times(shares.axes[0].step, Factor);
+  wide.axes[1].step = times(shares.axes[1].step, Factor);
+  wide.axes[2].step = times(shares.axes[2].step, Factor);
+  return wide;
+}
+
+/// All votes for a part of one register of a chunk's neighbours, from `i` on, whose shares in the grid are known.
+template <class Voting, class Part, class Signal, class Chunk>
+[[nodiscard]] SHORTSHOT_INLINE Votes<votes_of<Voting, Part>> votes_at(const Chunk& chunk, std::uint32_t i,
+                                                                      PointShares&& shares, const Signal& signal,
+                                                                      const VoteUnit& unit) noexcept {
+  if constexpr (Part::has_histogram) {
+    constexpr const Axis& axis = Part::template axes<Part::values>[3];
+    shares.axes[3] = Voting::split(axis, Part::Cells::bin_position(axis, signal(chunk, i)), unit);
+  }
+  return Voting::template combine<Part::axis_count>(Part::template axes<Part::values>, shares.axes, unit);
 }
 
 /// Is vote `k` of a neighbour, to its partner along an axis of the grid, of the same weight for all parts on the grid?
@@ -3527,47 +3615,26 @@ inline void add_bits(float* value, std::int32_t weight) noexcept {
 /// The votes of a chunk for the part that begins at value `Offset` of the descriptor, lane-wise: `count` arrays of
 /// positions in the part, and as many of weights. Votes go through memory: taken out of registers lane by lane they
 /// would cost twice as much.
-template <class Voting, class PartType, int Offset, class Signal>
+template <class Voting, class PartType, int Offset, class Signal, std::uint32_t ChunkSize>
 struct ChunkVotes {
   using Part = PartType;
   static constexpr int offset = Offset;
   static constexpr int count = votes_of<Voting, Part>;
   Signal signal;
-  std::int32_t index[count * chunk_size];
-  std::int32_t weight[count * chunk_size];
+  std::int32_t index[count * ChunkSize];
+  std::int32_t weight[count * ChunkSize];
 
   template <class Colors>
   explicit ChunkVotes(const Colors& colors) noexcept : signal(colors) {}
 
-  /// The votes of one register of neighbours, from `i` on, whose shares are those in the part's grid if every cell had
-  /// `Values` values. Weights that the `First` part on the grid has as well are kept there only.
-  template <int Values, bool First, class Chunk>
-  [[gnu::always_inline]] void cast(const Chunk& chunk, std::uint32_t i, const GridShares& grid,
-                                   const VoteUnit& unit) noexcept {
-    using R = typename Part::template RadialAxis<>;
-    using E = typename Part::template ElevationAxis<>;
-    using A = typename Part::template AzimuthAxis<>;
-    constexpr int factor = Part::values / Values;
-    Share r = widened<factor>(grid.axes[0]);
-    r.cell = times<factor>(grid.cell);
-    const Share e = widened<factor>(grid.axes[1]);
-    const Share a = widened<factor>(grid.axes[2]);
-    if constexpr (Part::has_histogram) {
-      using S = typename Part::SignalAxis;
-      const simd::I32 position = Part::Cells::template bin_position<S>(signal(chunk, i));
-      const Share s = Voting::template split<S>(position, unit);
-      store<First>(i, Voting::template combine<R, E, A, S>({r, e, a, s}, unit));
-    } else {
-      store<First>(i, Voting::template combine<R, E, A>({r, e, a}, unit));
-    }
-  }
-
- private:
-  template <bool First>
-  [[gnu::always_inline]] void store(std::uint32_t i, const Votes<count>& votes) noexcept {
+  /// The votes of one register of neighbours, from `i` on. Weights that the `First` part on the grid has as well are
+  /// kept there only.
+  template <bool First, class Chunk>
+  SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, PointShares&& shares, const VoteUnit& unit) noexcept {
+    const Votes<count> votes = votes_at<Voting, Part>(chunk, i, std::move(shares), signal, unit);
     unroll<count>([&](auto k) {
-      simd::store(index + i + k * chunk_size, votes.index[k]);
-      if constexpr (First || !is_shared<Voting>(k)) simd::store(weight + i + k * chunk_size, votes.weight[k]);
+      simd::store(index + i + k * ChunkSize, votes.index[k]);
+      if constexpr (First || !is_shared<Voting>(k)) simd::store(weight + i + k * ChunkSize, votes.weight[k]);
     });
   }
 };
@@ -3581,40 +3648,40 @@ inline constexpr int votes_of_most = [] {
 }();
 
 /// Vote `K` of neighbour `i` of a chunk, of the weight that `source` has.
-template <int K, class Votes, class Source>
-[[gnu::always_inline]] inline void add_vote(float* out, const Votes& votes, const Source& source,
-                                            std::uint32_t i) noexcept {
-  constexpr std::uint32_t first = K * chunk_size;
+template <int K, std::uint32_t ChunkSize, class Votes, class Source>
+SHORTSHOT_INLINE void add_vote(float* out, const Votes& votes, const Source& source, std::uint32_t i) noexcept {
+  constexpr std::uint32_t first = K * ChunkSize;
   if constexpr (K < Votes::count) {
     add_bits(out + Votes::offset + votes.index[first + i], source.weight[first + i]);
   }
 }
 
 /// All votes of neighbour `i` of a chunk, for all parts on one grid.
-template <class Voting, class First, class... Others>
-[[gnu::always_inline]] inline void add_votes(std::uint32_t i, float* out, const First& first,
-                                             const Others&... others) noexcept {
+template <class Voting, std::uint32_t ChunkSize, class First, class... Others>
+SHORTSHOT_INLINE void add_votes(std::uint32_t i, float* out, const First& first, const Others&... others) noexcept {
   unroll<votes_of_most<First, Others...>>([&](auto k) {
-    add_vote<k>(out, first, first, i);
+    add_vote<k, ChunkSize>(out, first, first, i);
     if constexpr (is_shared<Voting>(k)) {
-      (add_vote<k>(out, others, first, i), ...);
+      (add_vote<k, ChunkSize>(out, others, first, i), ...);
     } else {
-      (add_vote<k>(out, others, others, i), ...);
+      (add_vote<k, ChunkSize>(out, others, others, i), ...);
     }
   });
 }
 
 /// The votes of a chunk for all parts on one grid. Neighbours from its four stretches are taken in turn.
-template <class Voting, class... Votes>
+template <class Voting, std::uint32_t ChunkSize, class... Votes>
 inline void scatter(std::uint32_t size, float* out, const Votes&... votes) noexcept {
-  constexpr std::uint32_t quarter = chunk_size / 4;  // a stretch of a full chunk; any other split would do
+  constexpr std::uint32_t quarter = ChunkSize / 4;  // a stretch of a full chunk; any other split would do
   static_assert(stretches_of_full_chunk == 4, "what is written out below");
   std::uint32_t i = 0;
   if (size >= 3 * quarter) {
-    for (; i < size - 3 * quarter; ++i) unroll<4>([&](auto k) { add_votes<Voting>(i + k * quarter, out, votes...); });
+    for (; i < size - 3 * quarter; ++i) {
+      unroll<4>([&](auto k) { add_votes<Voting, ChunkSize>(i + k * quarter, out, votes...); });
+    }
   }
   for (; i < quarter; ++i) {
-    for (std::uint32_t k = i; k < size; k += quarter) add_votes<Voting>(k, out, votes...);
+    for (std::uint32_t k = i; k < size; k += quarter) add_votes<Voting, ChunkSize>(k, out, votes...);
   }
 }
 
@@ -3632,26 +3699,72 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& fi
   }();
   const std::uint32_t size = chunk.size;
   for (std::uint32_t i = 0; i < size; i += simd::lanes) {
-    const GridShares shares = share_among_cells<Voting, Part, values>(chunk, i, unit);
-    first.template cast<values, true>(chunk, i, shares, unit);
-    (others.template cast<values, false>(chunk, i, shares, unit), ...);
+    PointShares shares = grid_shares<Voting, Part, values>(coordinates_at(chunk, i), unit);
+    if constexpr (sizeof...(Others) == 0) {
+      first.template cast<true>(chunk, i, std::move(shares), unit);
+    } else {
+      first.template cast<true>(chunk, i, widened<Part::values / values>(shares), unit);
+      (others.template cast<false>(chunk, i, widened<std::decay_t<Others>::Part::values / values>(shares), unit), ...);
+    }
   }
-  scatter<Voting>(size, out, first, others...);
+  scatter<Voting, Chunk::room>(size, out, first, others...);
+}
+
+/// The votes of neighbour `i` of a chunk for one part, added at once: there is one lane only.
+template <class Voting, class Part, class Signal, class Chunk>
+SHORTSHOT_INLINE void add_point(const Chunk& chunk, std::uint32_t i, const Coordinates& at, const Signal& signal,
+                                const VoteUnit& unit, float* values) noexcept {
+  constexpr int count = votes_of<Voting, Part>;
+  const Votes<count> votes =
+      votes_at<Voting, Part>(chunk, i, grid_shares<Voting, Part, Part::values>(at, unit), signal, unit);
+  each<count>([&](auto k) {
+    std::int32_t place = 0;
+    std::int32_t weight = 0;
+    simd::store(&place, votes.index[k]);
+    simd::store(&weight, votes.weight[k]);
+    add_bits(values + place, weight);
+  });
+}
+
+/// All parts in one loop: what they have in common is worked out once.
+template <class Voting, class... Parts, std::size_t... I, class Chunk, class... Signals>
+inline void add_points(Descriptor<Voting, Parts...>, std::index_sequence<I...>, const Chunk& chunk,
+                       const VoteUnit& unit, float* out, const Signals&... signals) noexcept {
+  using D = Descriptor<Voting, Parts...>;
+  const std::uint32_t size = chunk.size;
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const Coordinates at = coordinates_at(chunk, i);
+    (add_point<Voting, Parts>(chunk, i, at, signals, unit, out + D::offset(I)), ...);
+  }
 }
 
 template <class Voting, class... Parts, std::size_t... I, class Chunk, class Colors>
-inline void accumulate_all(Descriptor<Voting, Parts...>, std::index_sequence<I...>, const Chunk& chunk,
-                           const Colors& colors, VoteUnit unit, float* out) noexcept {
+inline void accumulate_all(Descriptor<Voting, Parts...> descriptor, std::index_sequence<I...> parts, const Chunk& chunk,
+                           const Colors& colors, const VoteUnit& unit, float* out) noexcept {
   using D = Descriptor<Voting, Parts...>;
-  if constexpr (HaveOneGrid<Parts...>::value) {
-    accumulate<Voting>(chunk, unit, out, ChunkVotes<Voting, Parts, D::offset(I), SignalOf<Parts, Colors>>(colors)...);
+  if constexpr (simd::lanes == 1) {
+    add_points(descriptor, parts, chunk, unit, out, SignalOf<Parts, Colors>(colors)...);
+  } else if constexpr (HaveOneGrid<Parts...>::value) {
+    accumulate<Voting>(chunk, unit, out,
+                       ChunkVotes<Voting, Parts, D::offset(I), SignalOf<Parts, Colors>, Chunk::room>(colors)...);
   } else {
     const auto accumulate_part = [&](auto part, float* values) {
       using Part = decltype(part);
-      accumulate<Voting>(chunk, unit, values, ChunkVotes<Voting, Part, 0, SignalOf<Part, Colors>>(colors));
+      accumulate<Voting>(chunk, unit, values, ChunkVotes<Voting, Part, 0, SignalOf<Part, Colors>, Chunk::room>(colors));
     };
     (accumulate_part(Parts{}, out + D::offset(I)), ...);
   }
+}
+
+/// Bytes of a chunk and its votes, those of parts on one grid at the same time.
+template <std::uint32_t ChunkSize, class Voting, class... Parts>
+constexpr std::size_t scratch_bytes(Descriptor<Voting, Parts...>) noexcept {
+  using D = Descriptor<Voting, Parts...>;
+  constexpr std::size_t votes[] = {sizeof(ChunkVotes<Voting, Parts, 0, NoSignal, ChunkSize>)...};
+  std::size_t most = 0;
+  for (const std::size_t bytes : votes)
+    most = HaveOneGrid<Parts...>::value ? most + bytes : most < bytes ? bytes : most;
+  return sizeof(Chunk<D::needs_normals, ChunkSize>) + (simd::lanes == 1 ? 0 : most);
 }
 
 }  // namespace detail
@@ -3665,11 +3778,12 @@ inline namespace SHORTSHOT_ISA {
 
 /// The normals of a cloud's own channel: what a NormalCosine looks at. A neighbour whose normal is not finite has none.
 struct CloudNormals {
-  CloudView cloud;
-  [[nodiscard]] Status status() const noexcept { return has_normals(cloud) ? Status::ok : Status::missing_normals; }
+  Float3Channel normals;  ///< the cloud's
+  explicit CloudNormals(const CloudView& cloud) noexcept : normals(cloud.normals) {}
+  [[nodiscard]] Status status() const noexcept { return normals.x != nullptr ? Status::ok : Status::missing_normals; }
   /// One register of normals by index.
   [[nodiscard, gnu::always_inline]] PointLanes operator()(const std::uint32_t* index) const noexcept {
-    return read_lanes(cloud.normals, [index](std::size_t lane) { return std::size_t{index[lane]}; });
+    return read_lanes(normals, [index](std::size_t lane) { return std::size_t{index[lane]}; });
   }
 };
 
@@ -3686,43 +3800,72 @@ inline namespace SHORTSHOT_ISA {
 namespace detail {
 
 /// The finest unit in which the votes of `n` neighbours can be added up, and no finer than positions are.
-template <int PositionBits, int WeightBits = 2>
-[[nodiscard]] inline VoteUnit vote_unit(std::uint32_t n) noexcept {
-  const int finest = fixed_point_exponent(n, WeightBits);
-  const int bits = finest < PositionBits ? finest : PositionBits - 1;
+[[nodiscard]] inline VoteUnit vote_unit(std::uint32_t n, int position_bits, int weight_bits) noexcept {
+  const int finest = fixed_point_exponent(n, weight_bits);
+  const int bits = finest < position_bits ? finest : position_bits - 1;
   return {bits, std::int32_t{1} << bits};
 }
 
 /// Integers to floats of L2 norm 1. Squares are added up in eight places, whatever the number of lanes: the same order,
 /// and so the same bits, from all.
-template <int Size>
-[[nodiscard]] inline Status normalize(float* values) noexcept {
+[[nodiscard]] inline Status normalize(float* values, int size) noexcept {
   constexpr int lanes = static_cast<int>(simd::lanes);
+  const int whole = small_code && lanes == 1 ? 0 : size / 8 * 8;
   simd::F32 squares[8 / lanes] = {};
-  const auto convert_eight = [&](float* eight) {
-    unroll<8 / lanes>([&](auto i) {
-      const simd::F32 value = to_float(bits_of(simd::load(eight + i * lanes)));
-      simd::store(eight + i * lanes, value);
-      squares[i] = squares[i] + value * value;
+  for (int i = 0; i < whole; i += 8) {
+    each<8 / lanes>([&](auto k) {
+      const simd::F32 value = to_float(bits_of(simd::load(values + i + k * lanes)));
+      simd::store(values + i + k * lanes, value);
+      squares[k] = squares[k] + value * value;
     });
-  };
-  constexpr int whole = Size / 8 * 8;
-  for (int i = 0; i < whole; i += 8) convert_eight(values + i);
-  float rest[8] = {};
-  std::memcpy(rest, values + whole, (Size - whole) * sizeof(float));
-  convert_eight(rest);
-
+  }
   float s[8];
-  unroll<8 / lanes>([&](auto i) { simd::store(s + i * lanes, squares[i]); });
+  each<8 / lanes>([&](auto k) { simd::store(s + k * lanes, squares[k]); });
+  for (int i = whole; i < size; ++i) {
+    std::int32_t sum = 0;
+    std::memcpy(&sum, values + i, sizeof sum);
+    values[i] = static_cast<float>(sum);
+    s[i % 8] += rounded(values[i] * values[i]);
+  }
+
   const float squared_norm = ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
   if (!(squared_norm > 0.0f)) return Status::too_few_neighbors;
   const float inverse = 1.0f / simd::root(squared_norm);
   for (int i = 0; i < whole; i += lanes) simd::store(values + i, simd::load(values + i) * simd::all(inverse));
-  for (int i = whole; i < Size; ++i) values[i] = rest[i - whole] * inverse;
+  for (int i = whole; i < size; ++i) values[i] *= inverse;
   return Status::ok;
 }
 
+/// describe() for what was checked before; `out` is all zeros.
+template <class D, std::uint32_t ChunkSize, class Neighbors, class Colors, class Normals>
+[[nodiscard]] inline Status describe_checked(const Neighbors& n, const Colors& colors, const Normals& normals,
+                                             const Frame& frame, Radius radius, float* out) noexcept {
+  const VoteUnit unit = vote_unit(n.size, D::position_bits, D::Voting::weight_bits);
+  Chunk<D::needs_normals, ChunkSize> chunk;
+  std::uint32_t described = 0;
+  for (std::uint32_t i = 0; i * ChunkSize < n.size; ++i) {
+    locate<typename D::Cells, (D::shell_borders > 1)>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
+                                                      D::shell_borders, normals, chunk);
+    accumulate_all(D{}, std::make_index_sequence<D::parts>{}, chunk, colors, unit, out);
+    described += chunk.size;
+  }
+  constexpr std::uint32_t fewest = D::Cells::min_neighbors;
+  if (fewest > 0 && described < fewest && count_within(n, radius) < fewest) {
+    std::memset(out, 0, D::size_bytes);
+    return Status::too_few_neighbors;
+  }
+  return normalize(out, D::size);
+}
+
 }  // namespace detail
+
+/// Neighbours that go through the kernel together: of that length are all arrays that it has on the stack. A template
+/// parameter of describe() and describe_at(), any multiple of simd::lanes: it changes speed and memory, no result.
+inline constexpr std::uint32_t default_chunk_size = simd::lanes == 1 ? 16 : 64;
+
+/// Bytes of those arrays.
+template <class D, std::uint32_t ChunkSize = default_chunk_size>
+inline constexpr std::size_t chunk_bytes = detail::scratch_bytes<ChunkSize>(D{});
 
 /// Describe a gathered neighbourhood in a frame: the kernel of every descriptor.
 ///
@@ -3738,10 +3881,11 @@ template <int Size>
 /// SHOT and CSHOT: PCL 1.13's SHOTEstimation and SHOTColorEstimation. The rules are in cells.hpp and voting.hpp.
 /// Statuses: bad_radius, bad_frame, missing_colors, missing_normals, too_many_neighbors (over 2^24), too_few_neighbors
 /// (none to describe; for SHOT and CSHOT also fewer than five, the key point and its copies included); `out` is all
-/// zeros then, and never NaN. No allocation; reentrant; 2 to 17 KB of stack (5 for SCSH by the published rule, 7 for
-/// CSHOT). The result does not depend on the order of the neighbours.
-template <class D, class Colors, class Normals>
-[[nodiscard]] inline Status describe(const Neighborhood& n, const Colors& colors, const Normals& normals,
+/// zeros then, and never NaN. No allocation; reentrant; chunk_bytes<D, ChunkSize> of stack (with lanes 5 KB for SCSH, 7
+/// KB for CSHOT; without 272 bytes for SCSH), and half a kilobyte more. The result depends neither on the order of the
+/// neighbours nor on ChunkSize: what is done for a neighbour depends on no other, and sums are integers.
+template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors, class Colors, class Normals>
+[[nodiscard]] inline Status describe(const Neighbors& n, const Colors& colors, const Normals& normals,
                                      const Frame& frame, Radius radius, float* out) noexcept {
   static_assert(!D::needs_colors || !std::is_same<Colors, NoColors>::value,
                 "D has a colour part: describe() supports RgbColors, LabColors or another source of Lab by index");
@@ -3755,28 +3899,14 @@ template <class D, class Colors, class Normals>
   if (status == Status::ok && D::needs_normals) status = normals.status();
   if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
   if (status != Status::ok) return status;
-
-  const VoteUnit unit = detail::vote_unit<D::position_bits, D::Voting::weight_bits>(n.size);
-  detail::Chunk<D::needs_normals> chunk;
-  std::uint32_t described = 0;
-  for (std::uint32_t i = 0; i * detail::chunk_size < n.size; ++i) {
-    detail::locate<D>(n, detail::stretches_of_chunk(i, n.size), frame, radius, normals, chunk);
-    detail::accumulate_all(D{}, std::make_index_sequence<D::parts>{}, chunk, colors, unit, out);
-    described += chunk.size;
-  }
-  constexpr std::uint32_t fewest = D::Cells::min_neighbors;
-  if (fewest > 0 && described < fewest && count_within(n, radius) < fewest) {
-    std::memset(out, 0, D::size_bytes);
-    return Status::too_few_neighbors;
-  }
-  return detail::normalize<D::size>(out);
+  return detail::describe_checked<D, ChunkSize>(n, colors, normals, frame, radius, out);
 }
 
 /// The same for descriptors without normals.
-template <class D, class Colors>
-[[nodiscard]] inline Status describe(const Neighborhood& n, const Colors& colors, const Frame& frame, Radius radius,
+template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors, class Colors>
+[[nodiscard]] inline Status describe(const Neighbors& n, const Colors& colors, const Frame& frame, Radius radius,
                                      float* out) noexcept {
-  return describe<D>(n, colors, NoNormals{}, frame, radius, out);
+  return describe<D, ChunkSize>(n, colors, NoNormals{}, frame, radius, out);
 }
 
 }  // namespace SHORTSHOT_ISA
@@ -3839,86 +3969,102 @@ template <class D>
   }
 }
 
-/// Frame and kernel; for `colors` see describe().
-template <class D, class Colors>
-[[nodiscard]] inline Status describe_gathered(const CloudView& cloud, const Neighborhood& n, const Colors& colors,
+/// Frame and kernel; for `colors` see describe(). The arguments were checked before.
+template <class D, std::uint32_t ChunkSize, class Neighbors, class Colors>
+[[nodiscard]] inline Status describe_gathered(const CloudView& cloud, const Neighbors& n, const Colors& colors,
                                               const Point& center, const Support& support, Frame& frame,
                                               float* out) noexcept {
   const Point* eye = support.viewpoint;
   const float towards[3] = {eye ? eye->x - center.x : 0.0f, eye ? eye->y - center.y : 0.0f,
                             eye ? eye->z - center.z : 0.0f};
   const Status status = estimate_frame(n, support.frame_radius, frame, towards);  // all zeros: by vote
-  return status == Status::ok ? describe<D>(n, colors, normals_of<D>(cloud), frame, support.radius, out) : status;
+  if (status != Status::ok) return status;
+  return describe_checked<D, ChunkSize>(n, colors, normals_of<D>(cloud), frame, support.radius, out);
 }
 
-/// The colour source that reads a cloud's own bytes.
-template <class D>
-[[nodiscard]] inline auto rgb_colors(const CloudView& cloud, const Rgb& reference) noexcept {
-  if constexpr (D::needs_colors) {
-    using Rule = typename D::LabRule;
-    return RgbColors<Rule>{cloud, to_lab<Rule>(reference)};
-  } else {
+/// In place of colours that were converted before: none, neighbours' bytes are converted whenever they are needed.
+struct ConvertEach {};
+
+/// Where D's colours come from, as seen from a key point: from an array of the whole cloud's ones, or from its bytes.
+template <class D, class Color>
+[[nodiscard]] inline auto colors_of(const CloudView& cloud, const Rgb& reference, const Color* converted) noexcept {
+  if constexpr (!D::needs_colors) {
     return NoColors{};
+  } else if constexpr (std::is_same<Color, ConvertEach>::value) {
+    return RgbColors<typename D::LabRule>(cloud, to_lab<typename D::LabRule>(reference));
+  } else {
+    return StoredColors<Color>{converted, to_lab<typename D::LabRule>(reference)};
   }
 }
 
-/// Everything up to the gathered neighbourhood; finish(neighborhood, colors) makes the descriptor of it.
-template <class D, class Search, std::size_t MaxNeighbors, class Finish>
-[[nodiscard]] inline Status describe_key(const CloudView& cloud, const Search& search, const KeyPoint& key,
-                                         const Support& support, Workspace<MaxNeighbors>& workspace, float* out,
+/// Key points of describe_at(), by index or as they are.
+[[nodiscard]] inline Status find_key(const CloudView& cloud, std::size_t index, KeyPoint& key) noexcept {
+  if (index >= cloud.size) return Status::bad_keypoint;
+  key = keypoint(cloud, index);
+  return Status::ok;
+}
+[[nodiscard]] inline Status find_key(const CloudView&, const KeyPoint& given, KeyPoint& key) noexcept {
+  key = given;
+  return Status::ok;
+}
+
+/// Everything up to the gathered neighbourhood; finish(neighborhood, colors, position) makes the descriptor of it.
+template <class D, class Search, class Place, class Memory, class Color, class Finish>
+[[nodiscard]] inline Status describe_key(const CloudView& cloud, const Search& search, const Place& place,
+                                         const Support& support, Memory& workspace, float* out, const Color* converted,
                                          const Finish& finish) noexcept {
   std::memset(out, 0, D::size_bytes);
+  KeyPoint key;
   Status status = check<D>(cloud, search, support);
+  if (status == Status::ok) status = find_key(cloud, place, key);
   if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
   if (status != Status::ok) return status;
-  Neighborhood n = neighborhood_in(workspace);
-  status = search.gather(key.position, gather_radius(support), n);
-  return status == Status::ok ? finish(n, rgb_colors<D>(cloud, key.color)) : status;
+  const auto colors = colors_of<D>(cloud, key.color, converted);
+  auto n = neighborhood_in(workspace, cloud, key.position);
+  status = colors.status();
+  if (status == Status::ok) status = search.gather(key.position, gather_radius(support), n);
+  return status == Status::ok ? finish(n, colors, key.position) : status;
 }
 
 }  // namespace detail
 
-/// Describe one key point of a cloud.
+/// Describe one key point of a cloud, given by its index or as a KeyPoint.
 ///
 /// `search`     any search over this cloud
 /// `support`    radii and, if known, the camera's position; a plain float is the radius in metres
-/// `workspace`  a Workspace<MaxNeighbors>; all the memory there is
+/// `workspace`  a Workspace<MaxNeighbors> or a CompactWorkspace<MaxNeighbors>: all the memory there is
 /// `out`        D::size floats: the descriptor, L2 norm 1, or all zeros if the status is not ok
+/// `converted`  colours (Lab or PackedLab), one per point, that convert_colors() made by D's own rule; without them
+/// each
+///              neighbour's bytes are converted again for every key point
 ///
 /// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint,
-/// missing_colors, missing_normals, invalid_keypoint, too_many_neighbors (the workspace is too small:
-/// Neighborhood::found of a gather() says what it takes), too_few_neighbors, ambiguous_frame; and what the search's
-/// build() returned, if not ok. No allocation; reentrant, one workspace per thread.
-template <class D, class Search, std::size_t MaxNeighbors>
-[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
-                                        const Support& support, Workspace<MaxNeighbors>& workspace,
-                                        float* out) noexcept {
-  return detail::describe_key<D>(cloud, search, key, support, workspace, out, [&](const auto& n, const auto& colors) {
-    Frame frame;
-    return detail::describe_gathered<D>(cloud, n, colors, key.position, support, frame, out);
-  });
+/// missing_colors, missing_normals, bad_keypoint (the index), invalid_keypoint, too_many_neighbors (the workspace is
+/// too small: Neighborhood::found of a gather() says what it takes), too_few_neighbors, ambiguous_frame; and what the
+/// search's build() returned, if not ok. No allocation; reentrant, one workspace per thread.
+template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place, class Memory,
+          class Color = detail::ConvertEach>
+[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
+                                        const Support& support, Memory& workspace, float* out,
+                                        const Color* converted = nullptr) noexcept {
+  return detail::describe_key<D>(cloud, search, place, support, workspace, out, converted,
+                                 [&](const auto& n, const auto& colors, const Point& position) {
+                                   Frame frame;
+                                   return detail::describe_gathered<D, ChunkSize>(cloud, n, colors, position, support,
+                                                                                  frame, out);
+                                 });
 }
 
 /// The same in a frame that the caller knows; bad_frame if it is not orthonormal.
-template <class D, class Search, std::size_t MaxNeighbors>
-[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
-                                        const Frame& frame, Radius radius, Workspace<MaxNeighbors>& workspace,
-                                        float* out) noexcept {
-  return detail::describe_key<D>(cloud, search, key, radius, workspace, out, [&](const auto& n, const auto& colors) {
-    return describe<D>(n, colors, detail::normals_of<D>(cloud), frame, radius, out);
-  });
-}
-
-/// The same for the point with an index, in SHOT's own frame; bad_keypoint if there is none.
-template <class D, class Search, std::size_t MaxNeighbors>
-[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, std::size_t index,
-                                        const Support& support, Workspace<MaxNeighbors>& workspace,
-                                        float* out) noexcept {
-  std::memset(out, 0, D::size_bytes);
-  const Status status = check<D>(cloud, search, support);
-  if (status != Status::ok) return status;
-  if (index >= cloud.size) return Status::bad_keypoint;
-  return describe_at<D>(cloud, search, keypoint(cloud, index), support, workspace, out);
+template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place, class Memory,
+          class Color = detail::ConvertEach>
+[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
+                                        const Frame& frame, Radius radius, Memory& workspace, float* out,
+                                        const Color* converted = nullptr) noexcept {
+  return detail::describe_key<D>(
+      cloud, search, place, radius, workspace, out, converted, [&](const auto& n, const auto& colors, const Point&) {
+        return describe<D, ChunkSize>(n, colors, detail::normals_of<D>(cloud), frame, radius, out);
+      });
 }
 
 }  // namespace SHORTSHOT_ISA
@@ -3943,11 +4089,12 @@ struct MomentScale {
 
 /// The finest for `n` points that are no farther than `farthest`.
 [[nodiscard]] inline MomentScale moment_scale(std::uint32_t n, float farthest) noexcept {
-  return {1.0f / farthest, fixed_point_scale(n, 0)};
+  return {1.0f / farthest, fixed_point_scale(n)};
 }
 
 /// How far the members reach; 1e-19 m at least: below that, squares are lost to underflow.
-[[nodiscard]] inline float farthest_member(const Neighborhood& n, Radius radius) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline float farthest_member(const Neighbors& n, Radius radius) noexcept {
   simd::F32 farthest = simd::all(0.0f);
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const simd::F32 d2 = load_offsets(n, i).d2;
@@ -3991,7 +4138,8 @@ template <class TermOf>
 }
 
 /// The sums over one neighbourhood, in every lane.
-[[nodiscard]] inline Moments moments_of(const Neighborhood& n, Radius radius, const MomentScale& by) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline Moments moments_of(const Neighbors& n, Radius radius, const MomentScale& by) noexcept {
   Moments shares{};
   std::uint32_t i = 0;
   for (; i < n.size; i += simd::lanes) {
@@ -4031,12 +4179,12 @@ template <class TermOf>
   const F32 mean_x = x * weight;
   const F32 mean_y = y * weight;
   const F32 mean_z = z * weight;
-  const EigenLanes eigen = decompose_lanes({moment(3) - x * mean_x, moment(4) - x * mean_y, moment(5) - x * mean_z,
-                                            moment(6) - y * mean_y, moment(7) - y * mean_z, moment(8) - z * mean_z});
+  const EigenLanes eigen = decompose({{moment(3) - x * mean_x, moment(4) - x * mean_y, moment(5) - x * mean_z,
+                                       moment(6) - y * mean_y, moment(7) - y * mean_z, moment(8) - z * mean_z}});
   // What float can tell apart, and what the rounding of the members to integers may have moved.
-  const F32 resolution = all(1e-6f) * eigen.values[2] + all(4.0f) * members;
-  const simd::Mask flat = eigen.values[1] - eigen.values[0] > resolution;
-  const F32(&axis)[3] = eigen.vectors[0];
+  const F32 resolution = all(1e-6f) * eigen.value(2) + all(4.0f) * members;
+  const simd::Mask flat = eigen.value(1) - eigen.value(0) > resolution;
+  const F32(&axis)[4] = eigen.of[0];
   const simd::Mask away = (axis[0] * towards.x + axis[2] * towards.z) + axis[1] * towards.y < all(0.0f);
   const auto turned = [&](int k) { return negate(away, axis[k]) + all(0.0f); };  // no negative zeros
   return keep(flat, PointLanes{turned(0), turned(1), turned(2)});
@@ -4069,7 +4217,8 @@ inline void store(Normal* normals, const PointLanes& v) noexcept {
 /// three); ambiguous_frame (the two smaller extents are equal within float resolution: the neighbours lie on a line, or
 /// in one place). `normal` is zeroed then. No allocation, reentrant. The result does not depend on the order of the
 /// neighbours.
-[[nodiscard]] inline Status estimate_normal(const Neighborhood& n, Radius radius, const float* towards_viewpoint,
+template <class Neighbors>
+[[nodiscard]] inline Status estimate_normal(const Neighbors& n, Radius radius, const float* towards_viewpoint,
                                             Normal& normal) noexcept {
   normal = Normal{};
   float view[3] = {};
@@ -4103,10 +4252,11 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
 /// A search is anything with three functions:
-/// * `Status gather(Point center, Radius radius, Neighborhood& out) const noexcept` offers each valid point within the
-///   radius to `out` exactly once, in any order, by the index it has in the cloud. It returns status() if that is
-///   not ok, and too_many_neighbors if `out` is too small, with the number in `out.found`. It allocates nothing, and
-///   several threads may call it at once;
+/// * `Status gather(Point center, Radius radius, Neighbors& out) const noexcept`, for Neighborhood and any other that
+/// it
+///   shall work with, offers each valid point within the radius to `out` exactly once, in any order, by the index it
+///   has in the cloud. It returns status() if that is not ok, and too_many_neighbors if `out` is too small, with the
+///   number in `out.found`. It allocates nothing, and several threads may call it at once;
 /// * `Status status() const noexcept` says why it cannot be asked, if so: what its build() returned;
 /// * `std::size_t cloud_size() const noexcept` is the size of its cloud, so that it is not asked about another one.
 struct BruteSearch {
@@ -4116,12 +4266,16 @@ struct BruteSearch {
 
   [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud.size; }
 
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
+    const Point at = center;  // locals: what is stored cannot change them
+    Neighbors found = out;
     for (std::size_t i = 0; i < cloud.size; ++i) {
-      offer(out, point(cloud, i), static_cast<std::uint32_t>(i), center, radius.squared);
+      offer(found, point(cloud, i), static_cast<std::uint32_t>(i), at, radius.squared);
     }
+    out = found;
     return outcome(out);
   }
 };
@@ -4336,6 +4490,20 @@ template <class Index>
 }
 
 /// offer() for the points [i, end).
+template <class Index, class Neighbors>
+inline void offer_one_by_one(const SortedPoints<Index>& points, std::size_t i, std::size_t end, const Point& center,
+                             float radius_squared, Neighbors& out) noexcept {
+  const float* const x = points.xyz;
+  const std::size_t n = points.size;
+  for (; i < end; ++i) offer(out, {x[i], x[n + i], x[2 * n + i]}, points.order[i], center, radius_squared);
+}
+
+template <class Index, class Neighbors>
+inline void offer_run(const SortedPoints<Index>& points, std::size_t i, std::size_t end, const Point& center,
+                      float radius_squared, Neighbors& out) noexcept {
+  offer_one_by_one(points, i, end, center, radius_squared, out);
+}
+
 template <class Index>
 inline void offer_run(const SortedPoints<Index>& points, std::size_t i, std::size_t end, const Point& center,
                       float radius_squared, Neighborhood& out) noexcept {
@@ -4345,7 +4513,7 @@ inline void offer_run(const SortedPoints<Index>& points, std::size_t i, std::siz
   // Whole registers are read up to the end of the points, and written up to the capacity.
   const bool roomy = simd::lanes > 1 && end + simd::lanes <= n && out.capacity - out.size >= end - i + simd::lanes;
   if (!roomy) {
-    for (; i < end; ++i) offer(out, {x[i], x[n + i], x[2 * n + i]}, order[i], center, radius_squared);
+    offer_one_by_one(points, i, end, center, radius_squared, out);
     return;
   }
   const Neighborhood to = out;
@@ -4456,12 +4624,13 @@ class Grid {
   [[nodiscard]] std::size_t size() const noexcept { return points_; }
   [[nodiscard]] std::size_t cells() const noexcept { return box_.cells(); }
 
+  template <class Neighbors>
   [[nodiscard]] Status gather(const Contents& contents, const Point& center, Radius radius,
-                              Neighborhood& out) const noexcept {
+                              Neighbors& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
     if (!is_finite(center)) return Status::ok;
-    Neighborhood found = out;
+    Neighbors found = out;
     // The margin covers the rounding of d2, of the gaps and of the chord: each row gets all cells it needs.
     const float reach = rounded(radius.value * 1.000002f);
     const CellRange y = box_.range(1, center.y, reach);
@@ -4567,8 +4736,9 @@ class Grid {
   }
 
   /// Cells that follow each other are one run of points.
+  template <class Neighbors>
   void offer_cells(const Contents& contents, std::size_t first, std::size_t last, const Point& center,
-                   float radius_squared, Neighborhood& out) const noexcept {
+                   float radius_squared, Neighbors& out) const noexcept {
     const std::size_t begin = begin_of(contents, first);
     const std::size_t end = contents.cell_end[last];
     if (contents.xyz != nullptr) {
@@ -4617,7 +4787,8 @@ class GridIndex {
   /// Number of points in the index: the cloud's valid ones.
   [[nodiscard]] std::size_t size() const noexcept { return grid_.size(); }
 
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     return grid_.gather({memory_.order, memory_.cell_end, memory_.xyz}, center, radius, out);
   }
 
@@ -4644,7 +4815,8 @@ class StaticGrid {
   [[nodiscard]] Status status() const noexcept { return grid_.status(); }
   [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     return grid_.gather({order_, cell_end_, nullptr}, center, radius, out);
   }
 
@@ -4699,7 +4871,8 @@ class OrganizedSearch {
 
   [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_.size; }
 
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
     const float reach = rounded(radius.value * 1.000001f);  // covers the rounding of d2
@@ -4900,7 +5073,7 @@ class LabTable {
   }
 
   [[nodiscard]] Lab operator()(Rgb color) const noexcept {
-    return detail::lab_by([roots = roots_.data()](int step) { return roots[step]; }, color);
+    return detail::lab_by<Rule>([roots = roots_.data()](int step) { return roots[step]; }, color);
   }
 
  private:
@@ -5380,11 +5553,13 @@ template <class D, class Color, class Search>
   out.neighbors[row] = n.found;
   if (status != Status::ok) return status;
   float* values = out.values.data() + row * static_cast<std::size_t>(D::size);
+  std::memset(values, 0, D::size_bytes);
   if constexpr (D::needs_colors) {
     const StoredColors<Color> colors{out.scratch.lab.data(), out.scratch.to_lab(key.color)};
-    return describe_gathered<D>(cloud, n, colors, key.position, support, out.frames[row], values);
+    return describe_gathered<D, default_chunk_size>(cloud, n, colors, key.position, support, out.frames[row], values);
   } else {
-    return describe_gathered<D>(cloud, n, NoColors{}, key.position, support, out.frames[row], values);
+    return describe_gathered<D, default_chunk_size>(cloud, n, NoColors{}, key.position, support, out.frames[row],
+                                                    values);
   }
 }
 
@@ -5599,7 +5774,8 @@ class GridSearch {
   [[nodiscard]] Status status() const noexcept { return grid_.status(); }
   [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     return grid_.gather({order_.data(), cell_end_.data(), xyz_.data()}, center, radius, out);
   }
 
@@ -5645,12 +5821,13 @@ struct NanoflannCloud {
 
 /// A nanoflann result set that passes candidates straight on to a neighbourhood: queries allocate nothing, and whether
 /// a candidate is a neighbour is decided by the same rule, in the same arithmetic, as in every other search.
+template <class Neighbors>
 class NanoflannSink {
  public:
   using DistanceType = float;
   using IndexType = std::uint32_t;
 
-  NanoflannSink(const NanoflannCloud& points, const Point& center, Radius radius, Neighborhood& out)
+  NanoflannSink(const NanoflannCloud& points, const Point& center, Radius radius, Neighbors& out)
       : points_(points), center_(center), radius_(radius), out_(out) {}
 
   bool addPoint(float, std::uint32_t i) {
@@ -5669,7 +5846,7 @@ class NanoflannSink {
   const NanoflannCloud& points_;
   Point center_;
   Radius radius_;
-  Neighborhood& out_;
+  Neighbors& out_;
 };
 
 }  // namespace detail
@@ -5694,11 +5871,12 @@ class NanoflannSearch {
 
   [[nodiscard]] std::size_t cloud_size() const noexcept { return points_.cloud.size; }
 
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
     if (!is_finite(center)) return Status::ok;
-    detail::NanoflannSink sink(points_, center, radius, out);
+    detail::NanoflannSink<Neighbors> sink(points_, center, radius, out);
     const float query[3] = {center.x, center.y, center.z};
     tree_.findNeighbors(sink, query, {});  // {}: SearchParams up to 1.4, SearchParameters from 1.5 on
     return outcome(out);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "axis.hpp"
 #include "config.hpp"
 #include "simd.hpp"
 
@@ -38,9 +39,8 @@ struct PublishedCells {
   /// From numbers of cells, times the axis' unit, to fixed-point positions on grid axes.
   [[nodiscard]] static simd::I32 position(simd::F32 scaled) noexcept { return truncate_to_int(scaled); }
   /// From a signal, 0..1, to the position on the histogram's axis.
-  template <class Axis>
-  [[nodiscard]] static simd::I32 bin_position(simd::F32 signal) noexcept {
-    return truncate_to_int(signal * simd::all(static_cast<float>(Axis::cells) * Axis::one));
+  [[nodiscard]] static simd::I32 bin_position(const Axis& axis, simd::F32 signal) noexcept {
+    return truncate_to_int(signal * simd::all(axis.length()));
   }
 };
 
@@ -61,10 +61,9 @@ struct ShotCells {
   [[nodiscard]] static simd::I32 position(simd::F32 scaled) noexcept {
     return truncate_to_int(simd::max(scaled, simd::all(1.0f))) - simd::all_int(1);
   }
-  template <class Axis>
-  [[nodiscard]] static simd::I32 bin_position(simd::F32 signal) noexcept {
-    constexpr std::int32_t middle = std::int32_t{1} << (Axis::bits - 1);
-    return truncate_to_int(signal * simd::all(static_cast<float>(Axis::cells - 1) * Axis::one)) + simd::all_int(middle);
+  [[nodiscard]] static simd::I32 bin_position(const Axis& axis, simd::F32 signal) noexcept {
+    const std::int32_t middle = std::int32_t{1} << (axis.bits - 1);
+    return truncate_to_int(signal * simd::all(axis.length() - axis.one())) + simd::all_int(middle);
   }
 };
 

@@ -209,11 +209,13 @@ void for_each_valid(const CloudView& cloud, Function f) {
   }
 }
 
-/// The colour of point `index`; the cloud must have colours.
-[[nodiscard]] inline Rgb color(const CloudView& cloud, std::size_t index) noexcept {
-  const std::size_t offset = index * cloud.colors.stride_bytes;
-  return {cloud.colors.r[offset], cloud.colors.g[offset], cloud.colors.b[offset]};
+[[nodiscard]] inline Rgb read(const ColorChannel& channel, std::size_t index) noexcept {
+  const std::size_t offset = index * channel.stride_bytes;
+  return {channel.r[offset], channel.g[offset], channel.b[offset]};
 }
+
+/// The colour of point `index`; the cloud must have colours.
+[[nodiscard]] inline Rgb color(const CloudView& cloud, std::size_t index) noexcept { return read(cloud.colors, index); }
 
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot

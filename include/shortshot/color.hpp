@@ -12,9 +12,10 @@
 
 #include "cloud.hpp"
 #include "config.hpp"
-#include "math.hpp"
+#include "root.hpp"
 #include "rounded.hpp"
 #include "simd.hpp"
+#include "unroll.hpp"
 
 namespace shortshot {
 
@@ -74,51 +75,57 @@ inline constexpr std::array<float, 256> srgb_to_linear = make_srgb_to_linear();
 
 /// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
 struct PublishedLab {
+  static constexpr bool leaves_gamut = false;  ///< are there sRGB colours beyond -120..120 in a or b?
+  /// Of a CIE ratio, 0 to 1.
   [[nodiscard]] static float root(float t) noexcept {
-    if (!(t > 0.008856f)) return rounded(7.787f * t) + 16.0f / 116.0f;
-    // t^0.3333 = t^(1/3) exp(-ln t / 30000), and exp(e) = 1 + e + e^2 / 2 for |e| < 2e-4.
-    const math::Sum2 cube_root = math::cbrt(t);
-    const float e = rounded(math::log(t) * (-1.0f / 30000.0f));
-    return cube_root.high + (cube_root.low + rounded((cube_root.high + cube_root.low) * (e + rounded(0.5f * e * e))));
+    return t > 0.008856f ? detail::published_root(t) : rounded(7.787f * t) + 16.0f / 116.0f;
   }
 };
 
 /// CIELAB by the formula of PCL's CSHOT: the cube root above the knee, 7.87 t + 16/116 below.
 struct CshotLab {
+  static constexpr bool leaves_gamut = false;
   [[nodiscard]] static float root(float t) noexcept {
-    if (!(t > 0.008856f)) return rounded(7.87f * t) + 16.0f / 116.0f;
-    const math::Sum2 cube_root = math::cbrt(t);
-    return cube_root.high + cube_root.low;
+    return t > 0.008856f ? detail::cube_root(t) : rounded(7.87f * t) + 16.0f / 116.0f;
   }
 };
 
 /// The same as PCL's compiled code gives it: its table of roots ends before that of 1, where it reads a zero. White,
 /// the only colour with such a ratio, becomes L = -16, a = 120, b = -120.
 struct PclLab {
+  static constexpr bool leaves_gamut = true;
   [[nodiscard]] static float root(float t) noexcept { return t < 1.0f ? CshotLab::root(t) : 0.0f; }
 };
 
 namespace detail {
 
-/// The CIE ratios X / Xn, Y / Yn and Z / Zn of a colour in whole steps of 1 / 4000: positions in the published tables.
-struct RatioSteps {
-  int x, y, z;
+/// A colour without sRGB's gamma.
+struct LinearRgb {
+  float of[3];
 };
 
-[[nodiscard]] constexpr RatioSteps ratio_steps(Rgb rgb) noexcept {
-  const float r = srgb_to_linear[rgb.r];
-  const float g = srgb_to_linear[rgb.g];
-  const float b = srgb_to_linear[rgb.b];
-  const float x = (rounded(r * 0.412453f) + rounded(g * 0.357580f) + rounded(b * 0.180423f)) / 0.95047f;
-  const float y = rounded(r * 0.212671f) + rounded(g * 0.715160f) + rounded(b * 0.072169f);
-  const float z = (rounded(r * 0.019334f) + rounded(g * 0.119193f) + rounded(b * 0.950227f)) / 1.08883f;
-  return {static_cast<int>(x * 4000.0f), static_cast<int>(y * 4000.0f), static_cast<int>(z * 4000.0f)};
+[[nodiscard]] constexpr LinearRgb to_linear(Rgb rgb) noexcept {
+  return {{srgb_to_linear[rgb.r], srgb_to_linear[rgb.g], srgb_to_linear[rgb.b]}};
+}
+
+/// Linear RGB to CIE XYZ, and the white point.
+inline constexpr float xyz_of_rgb[3][3] = {
+    {0.412453f, 0.357580f, 0.180423f}, {0.212671f, 0.715160f, 0.072169f}, {0.019334f, 0.119193f, 0.950227f}};
+inline constexpr float white_xyz[3] = {0.95047f, 1.0f, 1.08883f};
+
+/// A CIE ratio of a colour (0: X / Xn, 1: Y / Yn, 2: Z / Zn) in whole steps of 1 / 4000: the position in the published
+/// tables.
+[[nodiscard]] constexpr int ratio_step(int ratio, const LinearRgb& rgb) noexcept {
+  const float(&row)[3] = xyz_of_rgb[ratio];
+  const float sum = rounded(rgb.of[0] * row[0]) + rounded(rgb.of[1] * row[1]) + rounded(rgb.of[2] * row[2]);
+  return static_cast<int>(sum / white_xyz[ratio] * 4000.0f);
 }
 
 /// The last step that a colour can have. The ratios grow with each of the three bytes: no colour is beyond white.
 inline constexpr int last_ratio_step = 4000;
-static_assert(ratio_steps({255, 255, 255}).x <= last_ratio_step && ratio_steps({255, 255, 255}).y <= last_ratio_step &&
-                  ratio_steps({255, 255, 255}).z <= last_ratio_step,
+inline constexpr LinearRgb white = to_linear({255, 255, 255});
+static_assert(ratio_step(0, white) <= last_ratio_step && ratio_step(1, white) <= last_ratio_step &&
+                  ratio_step(2, white) <= last_ratio_step,
               "white has the largest ratios");
 
 /// The root that `Rule` takes of a ratio of `step` / 4000.
@@ -127,16 +134,19 @@ template <class Rule>
   return Rule::root(static_cast<float>(step) / 4000.0f);
 }
 
-/// CIELAB of a colour; root(step) is the root of a ratio, computed or from a table of them.
-template <class Root>
+/// CIELAB of a colour; root(step) is the root of a ratio, computed or from a table of them. Both existing codes clamp a
+/// and b to -120..120 (and L to 100), which is beyond what sRGB colours have but for PclLab's white.
+template <class Rule, class Root>
 [[nodiscard]] inline Lab lab_by(const Root& root, Rgb rgb) noexcept {
-  const RatioSteps steps = ratio_steps(rgb);
-  const float fx = root(steps.x);
-  const float fy = root(steps.y);
-  const float fz = root(steps.z);
+  const LinearRgb linear = to_linear(rgb);
+  int steps[3];
+  float f[3];
+  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { steps[k] = ratio_step(k, linear); });
+  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { f[k] = root(steps[k]); });
+  const Lab lab{rounded(116.0f * f[1]) - 16.0f, rounded(500.0f * (f[0] - f[1])), rounded(200.0f * (f[1] - f[2]))};
+  if constexpr (!Rule::leaves_gamut) return lab;
   const auto clamped = [](float value) { return value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
-  const float lightness = rounded(116.0f * fy) - 16.0f;
-  return {lightness > 100.0f ? 100.0f : lightness, clamped(500.0f * (fx - fy)), clamped(200.0f * (fy - fz))};
+  return {lab.L, clamped(lab.a), clamped(lab.b)};
 }
 
 }  // namespace detail
@@ -146,7 +156,7 @@ template <class Root>
 /// same bits several times faster, for 16 KB.
 template <class Rule>
 [[nodiscard]] inline Lab to_lab(Rgb rgb) noexcept {
-  return detail::lab_by(detail::root_of_step<Rule>, rgb);
+  return detail::lab_by<Rule>([](int step) { return detail::root_of_step<Rule>(step); }, rgb);
 }
 
 /// Lanes of CIELAB colours.

@@ -20,10 +20,11 @@ inline namespace SHORTSHOT_ISA {
 template <class LabRule>
 struct RgbColors {
   using Rule = LabRule;
-  CloudView cloud;
+  ColorChannel bytes;  ///< the cloud's
   Lab reference;
-  [[nodiscard]] Status status() const noexcept { return has_colors(cloud) ? Status::ok : Status::missing_colors; }
-  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return to_lab<LabRule>(color(cloud, index)); }
+  RgbColors(const CloudView& cloud, const Lab& color) noexcept : bytes(cloud.colors), reference(color) {}
+  [[nodiscard]] Status status() const noexcept { return bytes.r != nullptr ? Status::ok : Status::missing_colors; }
+  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return to_lab<LabRule>(read(bytes, index)); }
 };
 
 /// The same from an array that holds each point's colour, converted once for the whole cloud by convert_colors().
@@ -46,6 +47,7 @@ struct NoColors {
 /// One register of colours by index.
 template <class Colors>
 [[nodiscard]] inline LabLanes colors_at(const Colors& colors, const std::uint32_t* index) noexcept {
+  if constexpr (simd::lanes == 1) return in_all_lanes(colors(*index));
   float lanes[3][simd::lanes];
   for (std::size_t k = 0; k < simd::lanes; ++k) {
     const Lab color = colors(index[k]);

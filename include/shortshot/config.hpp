@@ -1,4 +1,4 @@
-// shortshot/config.hpp: the one macro the library sets. There is none for you to set: options are template parameters.
+// shortshot/config.hpp: the macros the library sets. There is none for you to set: options are template parameters.
 #pragma once
 
 // Set by us: the kernel's code compiled for another instruction set lives in another inline namespace, so that two
@@ -18,4 +18,14 @@
 #define SHORTSHOT_ISA isa_neon
 #else
 #define SHORTSHOT_ISA isa_scalar
+#endif
+
+// Set by us, too: functions, and lambdas, that are inlined for speed, but left to the compiler where it was asked for
+// small code (-Os).
+#if defined(__OPTIMIZE_SIZE__)
+#define SHORTSHOT_INLINE inline
+#define SHORTSHOT_INLINE_LAMBDA
+#else
+#define SHORTSHOT_INLINE [[gnu::always_inline]] inline
+#define SHORTSHOT_INLINE_LAMBDA __attribute__((always_inline))
 #endif

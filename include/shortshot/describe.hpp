@@ -29,43 +29,72 @@ inline namespace SHORTSHOT_ISA {
 namespace detail {
 
 /// The finest unit in which the votes of `n` neighbours can be added up, and no finer than positions are.
-template <int PositionBits, int WeightBits = 2>
-[[nodiscard]] inline VoteUnit vote_unit(std::uint32_t n) noexcept {
-  const int finest = fixed_point_exponent(n, WeightBits);
-  const int bits = finest < PositionBits ? finest : PositionBits - 1;
+[[nodiscard]] inline VoteUnit vote_unit(std::uint32_t n, int position_bits, int weight_bits) noexcept {
+  const int finest = fixed_point_exponent(n, weight_bits);
+  const int bits = finest < position_bits ? finest : position_bits - 1;
   return {bits, std::int32_t{1} << bits};
 }
 
 /// Integers to floats of L2 norm 1. Squares are added up in eight places, whatever the number of lanes: the same order,
 /// and so the same bits, from all.
-template <int Size>
-[[nodiscard]] inline Status normalize(float* values) noexcept {
+[[nodiscard]] inline Status normalize(float* values, int size) noexcept {
   constexpr int lanes = static_cast<int>(simd::lanes);
+  const int whole = small_code && lanes == 1 ? 0 : size / 8 * 8;
   simd::F32 squares[8 / lanes] = {};
-  const auto convert_eight = [&](float* eight) {
-    unroll<8 / lanes>([&](auto i) {
-      const simd::F32 value = to_float(bits_of(simd::load(eight + i * lanes)));
-      simd::store(eight + i * lanes, value);
-      squares[i] = squares[i] + value * value;
+  for (int i = 0; i < whole; i += 8) {
+    each<8 / lanes>([&](auto k) {
+      const simd::F32 value = to_float(bits_of(simd::load(values + i + k * lanes)));
+      simd::store(values + i + k * lanes, value);
+      squares[k] = squares[k] + value * value;
     });
-  };
-  constexpr int whole = Size / 8 * 8;
-  for (int i = 0; i < whole; i += 8) convert_eight(values + i);
-  float rest[8] = {};
-  std::memcpy(rest, values + whole, (Size - whole) * sizeof(float));
-  convert_eight(rest);
-
+  }
   float s[8];
-  unroll<8 / lanes>([&](auto i) { simd::store(s + i * lanes, squares[i]); });
+  each<8 / lanes>([&](auto k) { simd::store(s + k * lanes, squares[k]); });
+  for (int i = whole; i < size; ++i) {
+    std::int32_t sum = 0;
+    std::memcpy(&sum, values + i, sizeof sum);
+    values[i] = static_cast<float>(sum);
+    s[i % 8] += rounded(values[i] * values[i]);
+  }
+
   const float squared_norm = ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
   if (!(squared_norm > 0.0f)) return Status::too_few_neighbors;
   const float inverse = 1.0f / simd::root(squared_norm);
   for (int i = 0; i < whole; i += lanes) simd::store(values + i, simd::load(values + i) * simd::all(inverse));
-  for (int i = whole; i < Size; ++i) values[i] = rest[i - whole] * inverse;
+  for (int i = whole; i < size; ++i) values[i] *= inverse;
   return Status::ok;
 }
 
+/// describe() for what was checked before; `out` is all zeros.
+template <class D, std::uint32_t ChunkSize, class Neighbors, class Colors, class Normals>
+[[nodiscard]] inline Status describe_checked(const Neighbors& n, const Colors& colors, const Normals& normals,
+                                             const Frame& frame, Radius radius, float* out) noexcept {
+  const VoteUnit unit = vote_unit(n.size, D::position_bits, D::Voting::weight_bits);
+  Chunk<D::needs_normals, ChunkSize> chunk;
+  std::uint32_t described = 0;
+  for (std::uint32_t i = 0; i * ChunkSize < n.size; ++i) {
+    locate<typename D::Cells, (D::shell_borders > 1)>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
+                                                      D::shell_borders, normals, chunk);
+    accumulate_all(D{}, std::make_index_sequence<D::parts>{}, chunk, colors, unit, out);
+    described += chunk.size;
+  }
+  constexpr std::uint32_t fewest = D::Cells::min_neighbors;
+  if (fewest > 0 && described < fewest && count_within(n, radius) < fewest) {
+    std::memset(out, 0, D::size_bytes);
+    return Status::too_few_neighbors;
+  }
+  return normalize(out, D::size);
+}
+
 }  // namespace detail
+
+/// Neighbours that go through the kernel together: of that length are all arrays that it has on the stack. A template
+/// parameter of describe() and describe_at(), any multiple of simd::lanes: it changes speed and memory, no result.
+inline constexpr std::uint32_t default_chunk_size = simd::lanes == 1 ? 16 : 64;
+
+/// Bytes of those arrays.
+template <class D, std::uint32_t ChunkSize = default_chunk_size>
+inline constexpr std::size_t chunk_bytes = detail::scratch_bytes<ChunkSize>(D{});
 
 /// Describe a gathered neighbourhood in a frame: the kernel of every descriptor.
 ///
@@ -81,10 +110,11 @@ template <int Size>
 /// SHOT and CSHOT: PCL 1.13's SHOTEstimation and SHOTColorEstimation. The rules are in cells.hpp and voting.hpp.
 /// Statuses: bad_radius, bad_frame, missing_colors, missing_normals, too_many_neighbors (over 2^24), too_few_neighbors
 /// (none to describe; for SHOT and CSHOT also fewer than five, the key point and its copies included); `out` is all
-/// zeros then, and never NaN. No allocation; reentrant; 2 to 17 KB of stack (5 for SCSH by the published rule, 7 for
-/// CSHOT). The result does not depend on the order of the neighbours.
-template <class D, class Colors, class Normals>
-[[nodiscard]] inline Status describe(const Neighborhood& n, const Colors& colors, const Normals& normals,
+/// zeros then, and never NaN. No allocation; reentrant; chunk_bytes<D, ChunkSize> of stack (with lanes 5 KB for SCSH, 7
+/// KB for CSHOT; without 272 bytes for SCSH), and half a kilobyte more. The result depends neither on the order of the
+/// neighbours nor on ChunkSize: what is done for a neighbour depends on no other, and sums are integers.
+template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors, class Colors, class Normals>
+[[nodiscard]] inline Status describe(const Neighbors& n, const Colors& colors, const Normals& normals,
                                      const Frame& frame, Radius radius, float* out) noexcept {
   static_assert(!D::needs_colors || !std::is_same<Colors, NoColors>::value,
                 "D has a colour part: describe() supports RgbColors, LabColors or another source of Lab by index");
@@ -98,28 +128,14 @@ template <class D, class Colors, class Normals>
   if (status == Status::ok && D::needs_normals) status = normals.status();
   if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
   if (status != Status::ok) return status;
-
-  const VoteUnit unit = detail::vote_unit<D::position_bits, D::Voting::weight_bits>(n.size);
-  detail::Chunk<D::needs_normals> chunk;
-  std::uint32_t described = 0;
-  for (std::uint32_t i = 0; i * detail::chunk_size < n.size; ++i) {
-    detail::locate<D>(n, detail::stretches_of_chunk(i, n.size), frame, radius, normals, chunk);
-    detail::accumulate_all(D{}, std::make_index_sequence<D::parts>{}, chunk, colors, unit, out);
-    described += chunk.size;
-  }
-  constexpr std::uint32_t fewest = D::Cells::min_neighbors;
-  if (fewest > 0 && described < fewest && count_within(n, radius) < fewest) {
-    std::memset(out, 0, D::size_bytes);
-    return Status::too_few_neighbors;
-  }
-  return detail::normalize<D::size>(out);
+  return detail::describe_checked<D, ChunkSize>(n, colors, normals, frame, radius, out);
 }
 
 /// The same for descriptors without normals.
-template <class D, class Colors>
-[[nodiscard]] inline Status describe(const Neighborhood& n, const Colors& colors, const Frame& frame, Radius radius,
+template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors, class Colors>
+[[nodiscard]] inline Status describe(const Neighbors& n, const Colors& colors, const Frame& frame, Radius radius,
                                      float* out) noexcept {
-  return describe<D>(n, colors, NoNormals{}, frame, radius, out);
+  return describe<D, ChunkSize>(n, colors, NoNormals{}, frame, radius, out);
 }
 
 }  // namespace SHORTSHOT_ISA

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include "cloud.hpp"
 #include "color.hpp"
@@ -72,86 +73,102 @@ template <class D>
   }
 }
 
-/// Frame and kernel; for `colors` see describe().
-template <class D, class Colors>
-[[nodiscard]] inline Status describe_gathered(const CloudView& cloud, const Neighborhood& n, const Colors& colors,
+/// Frame and kernel; for `colors` see describe(). The arguments were checked before.
+template <class D, std::uint32_t ChunkSize, class Neighbors, class Colors>
+[[nodiscard]] inline Status describe_gathered(const CloudView& cloud, const Neighbors& n, const Colors& colors,
                                               const Point& center, const Support& support, Frame& frame,
                                               float* out) noexcept {
   const Point* eye = support.viewpoint;
   const float towards[3] = {eye ? eye->x - center.x : 0.0f, eye ? eye->y - center.y : 0.0f,
                             eye ? eye->z - center.z : 0.0f};
   const Status status = estimate_frame(n, support.frame_radius, frame, towards);  // all zeros: by vote
-  return status == Status::ok ? describe<D>(n, colors, normals_of<D>(cloud), frame, support.radius, out) : status;
+  if (status != Status::ok) return status;
+  return describe_checked<D, ChunkSize>(n, colors, normals_of<D>(cloud), frame, support.radius, out);
 }
 
-/// The colour source that reads a cloud's own bytes.
-template <class D>
-[[nodiscard]] inline auto rgb_colors(const CloudView& cloud, const Rgb& reference) noexcept {
-  if constexpr (D::needs_colors) {
-    using Rule = typename D::LabRule;
-    return RgbColors<Rule>{cloud, to_lab<Rule>(reference)};
-  } else {
+/// In place of colours that were converted before: none, neighbours' bytes are converted whenever they are needed.
+struct ConvertEach {};
+
+/// Where D's colours come from, as seen from a key point: from an array of the whole cloud's ones, or from its bytes.
+template <class D, class Color>
+[[nodiscard]] inline auto colors_of(const CloudView& cloud, const Rgb& reference, const Color* converted) noexcept {
+  if constexpr (!D::needs_colors) {
     return NoColors{};
+  } else if constexpr (std::is_same<Color, ConvertEach>::value) {
+    return RgbColors<typename D::LabRule>(cloud, to_lab<typename D::LabRule>(reference));
+  } else {
+    return StoredColors<Color>{converted, to_lab<typename D::LabRule>(reference)};
   }
 }
 
-/// Everything up to the gathered neighbourhood; finish(neighborhood, colors) makes the descriptor of it.
-template <class D, class Search, std::size_t MaxNeighbors, class Finish>
-[[nodiscard]] inline Status describe_key(const CloudView& cloud, const Search& search, const KeyPoint& key,
-                                         const Support& support, Workspace<MaxNeighbors>& workspace, float* out,
+/// Key points of describe_at(), by index or as they are.
+[[nodiscard]] inline Status find_key(const CloudView& cloud, std::size_t index, KeyPoint& key) noexcept {
+  if (index >= cloud.size) return Status::bad_keypoint;
+  key = keypoint(cloud, index);
+  return Status::ok;
+}
+[[nodiscard]] inline Status find_key(const CloudView&, const KeyPoint& given, KeyPoint& key) noexcept {
+  key = given;
+  return Status::ok;
+}
+
+/// Everything up to the gathered neighbourhood; finish(neighborhood, colors, position) makes the descriptor of it.
+template <class D, class Search, class Place, class Memory, class Color, class Finish>
+[[nodiscard]] inline Status describe_key(const CloudView& cloud, const Search& search, const Place& place,
+                                         const Support& support, Memory& workspace, float* out, const Color* converted,
                                          const Finish& finish) noexcept {
   std::memset(out, 0, D::size_bytes);
+  KeyPoint key;
   Status status = check<D>(cloud, search, support);
+  if (status == Status::ok) status = find_key(cloud, place, key);
   if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
   if (status != Status::ok) return status;
-  Neighborhood n = neighborhood_in(workspace);
-  status = search.gather(key.position, gather_radius(support), n);
-  return status == Status::ok ? finish(n, rgb_colors<D>(cloud, key.color)) : status;
+  const auto colors = colors_of<D>(cloud, key.color, converted);
+  auto n = neighborhood_in(workspace, cloud, key.position);
+  status = colors.status();
+  if (status == Status::ok) status = search.gather(key.position, gather_radius(support), n);
+  return status == Status::ok ? finish(n, colors, key.position) : status;
 }
 
 }  // namespace detail
 
-/// Describe one key point of a cloud.
+/// Describe one key point of a cloud, given by its index or as a KeyPoint.
 ///
 /// `search`     any search over this cloud
 /// `support`    radii and, if known, the camera's position; a plain float is the radius in metres
-/// `workspace`  a Workspace<MaxNeighbors>; all the memory there is
+/// `workspace`  a Workspace<MaxNeighbors> or a CompactWorkspace<MaxNeighbors>: all the memory there is
 /// `out`        D::size floats: the descriptor, L2 norm 1, or all zeros if the status is not ok
+/// `converted`  colours (Lab or PackedLab), one per point, that convert_colors() made by D's own rule; without them
+/// each
+///              neighbour's bytes are converted again for every key point
 ///
 /// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint,
-/// missing_colors, missing_normals, invalid_keypoint, too_many_neighbors (the workspace is too small:
-/// Neighborhood::found of a gather() says what it takes), too_few_neighbors, ambiguous_frame; and what the search's
-/// build() returned, if not ok. No allocation; reentrant, one workspace per thread.
-template <class D, class Search, std::size_t MaxNeighbors>
-[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
-                                        const Support& support, Workspace<MaxNeighbors>& workspace,
-                                        float* out) noexcept {
-  return detail::describe_key<D>(cloud, search, key, support, workspace, out, [&](const auto& n, const auto& colors) {
-    Frame frame;
-    return detail::describe_gathered<D>(cloud, n, colors, key.position, support, frame, out);
-  });
+/// missing_colors, missing_normals, bad_keypoint (the index), invalid_keypoint, too_many_neighbors (the workspace is
+/// too small: Neighborhood::found of a gather() says what it takes), too_few_neighbors, ambiguous_frame; and what the
+/// search's build() returned, if not ok. No allocation; reentrant, one workspace per thread.
+template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place, class Memory,
+          class Color = detail::ConvertEach>
+[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
+                                        const Support& support, Memory& workspace, float* out,
+                                        const Color* converted = nullptr) noexcept {
+  return detail::describe_key<D>(cloud, search, place, support, workspace, out, converted,
+                                 [&](const auto& n, const auto& colors, const Point& position) {
+                                   Frame frame;
+                                   return detail::describe_gathered<D, ChunkSize>(cloud, n, colors, position, support,
+                                                                                  frame, out);
+                                 });
 }
 
 /// The same in a frame that the caller knows; bad_frame if it is not orthonormal.
-template <class D, class Search, std::size_t MaxNeighbors>
-[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const KeyPoint& key,
-                                        const Frame& frame, Radius radius, Workspace<MaxNeighbors>& workspace,
-                                        float* out) noexcept {
-  return detail::describe_key<D>(cloud, search, key, radius, workspace, out, [&](const auto& n, const auto& colors) {
-    return describe<D>(n, colors, detail::normals_of<D>(cloud), frame, radius, out);
-  });
-}
-
-/// The same for the point with an index, in SHOT's own frame; bad_keypoint if there is none.
-template <class D, class Search, std::size_t MaxNeighbors>
-[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, std::size_t index,
-                                        const Support& support, Workspace<MaxNeighbors>& workspace,
-                                        float* out) noexcept {
-  std::memset(out, 0, D::size_bytes);
-  const Status status = check<D>(cloud, search, support);
-  if (status != Status::ok) return status;
-  if (index >= cloud.size) return Status::bad_keypoint;
-  return describe_at<D>(cloud, search, keypoint(cloud, index), support, workspace, out);
+template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place, class Memory,
+          class Color = detail::ConvertEach>
+[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
+                                        const Frame& frame, Radius radius, Memory& workspace, float* out,
+                                        const Color* converted = nullptr) noexcept {
+  return detail::describe_key<D>(
+      cloud, search, place, radius, workspace, out, converted, [&](const auto& n, const auto& colors, const Point&) {
+        return describe<D, ChunkSize>(n, colors, detail::normals_of<D>(cloud), frame, radius, out);
+      });
 }
 
 }  // namespace SHORTSHOT_ISA

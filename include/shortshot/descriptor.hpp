@@ -82,17 +82,16 @@ struct Part {
   static constexpr int grid_bits = detail::position_bits(Grid::radial, Grid::elevation, Grid::azimuth);
   static constexpr int bits = detail::position_bits(1 << (30 - grid_bits), values);
 
-  /// Axes of the grid if every cell of it had `Values` values.
-  template <int Values = values>
-  using RadialAxis =
-      Axis<Grid::radial, Values * Cells::template strides<Grid>.radial, Beyond::nothing, grid_bits, Scale::below_zero>;
-  template <int Values = values>
-  using ElevationAxis =
-      Axis<Grid::elevation, Values * Cells::template strides<Grid>.elevation, Beyond::nothing, grid_bits>;
-  template <int Values = values>
-  using AzimuthAxis = Axis<Grid::azimuth, Values * Cells::template strides<Grid>.azimuth, Beyond::first_cell, grid_bits,
-                           Cells::has_poles ? BelowZero::nowhere : BelowZero::never>;
-  using SignalAxis = Axis<values, 1, Beyond::nothing, bits>;
+  /// The axes if every cell of the grid had `Values` values: radius, elevation, azimuth, and the histogram's where
+  /// there is one.
+  static constexpr int axis_count = has_histogram ? 4 : 3;
+  template <int Values>
+  static constexpr Axis axes[4] = {
+      {Grid::radial, Values* Cells::template strides<Grid>.radial, Beyond::nothing, Scale::below_zero, grid_bits},
+      {Grid::elevation, Values* Cells::template strides<Grid>.elevation, Beyond::nothing, BelowZero::never, grid_bits},
+      {Grid::azimuth, Values* Cells::template strides<Grid>.azimuth, Beyond::first_cell,
+       Cells::has_poles ? BelowZero::nowhere : BelowZero::never, grid_bits},
+      {values, 1, Beyond::nothing, BelowZero::never, bits}};
 };
 
 namespace detail {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 #include <vector>
 
@@ -39,11 +40,13 @@ template <class D, class Color, class Search>
   out.neighbors[row] = n.found;
   if (status != Status::ok) return status;
   float* values = out.values.data() + row * static_cast<std::size_t>(D::size);
+  std::memset(values, 0, D::size_bytes);
   if constexpr (D::needs_colors) {
     const StoredColors<Color> colors{out.scratch.lab.data(), out.scratch.to_lab(key.color)};
-    return describe_gathered<D>(cloud, n, colors, key.position, support, out.frames[row], values);
+    return describe_gathered<D, default_chunk_size>(cloud, n, colors, key.position, support, out.frames[row], values);
   } else {
-    return describe_gathered<D>(cloud, n, NoColors{}, key.position, support, out.frames[row], values);
+    return describe_gathered<D, default_chunk_size>(cloud, n, NoColors{}, key.position, support, out.frames[row],
+                                                    values);
   }
 }
 

@@ -16,16 +16,13 @@ namespace detail {
 /// The largest e such that `n` numbers of magnitude up to 2^bits, times 2^e, can be added up in any order without
 /// leaving int32, and each has at most 22 bits (what simd::round_to_int() can take).
 [[nodiscard]] inline int fixed_point_exponent(std::uint32_t n, int bits) noexcept {
-  int exponent = 30;
-  for (std::uint32_t covered = 1; covered < n; covered *= 2) --exponent;
-  return (exponent > 22 ? 22 : exponent) - bits;
+  const int exponent = n > 256 ? __builtin_clz(n - 1) - 2 : 22;  // 2^(30 - exponent) >= n
+  return exponent - bits;
 }
 
-/// The same as a factor; 1 at least.
-[[nodiscard]] inline float fixed_point_scale(std::uint32_t n, int bits) noexcept {
-  float scale = 1.0f;
-  for (int exponent = fixed_point_exponent(n, bits); exponent > 0; --exponent) scale *= 2.0f;
-  return scale;
+/// The same as a factor, for numbers of magnitude up to 1.
+[[nodiscard]] inline float fixed_point_scale(std::uint32_t n) noexcept {
+  return static_cast<float>(1 << fixed_point_exponent(n, 0));
 }
 
 }  // namespace detail

@@ -12,6 +12,7 @@
 #include "simd.hpp"
 #include "status.hpp"
 #include "symmetric_eigen.hpp"
+#include "unroll.hpp"
 
 namespace shortshot {
 
@@ -33,22 +34,20 @@ inline constexpr int min_frame_neighbors = 5;
 
 /// Is this a frame one can describe in: finite, and orthonormal within 1e-3?
 [[nodiscard]] inline Status check(const Frame& frame) noexcept {
-  if (!math::is_finite(frame.x) || !math::is_finite(frame.y) || !math::is_finite(frame.z)) return Status::bad_frame;
-  const auto near = [](float value, float target) { return value > target - 1e-3f && value < target + 1e-3f; };
-  const bool orthonormal = near(dot(frame.x, frame.x), 1.0f) && near(dot(frame.y, frame.y), 1.0f) &&
-                           near(dot(frame.z, frame.z), 1.0f) && near(dot(frame.x, frame.y), 0.0f) &&
-                           near(dot(frame.x, frame.z), 0.0f) && near(dot(frame.y, frame.z), 0.0f);
-  return orthonormal ? Status::ok : Status::bad_frame;
+  const float(*const axes[3])[3] = {&frame.x, &frame.y, &frame.z};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k <= i; ++k) {
+      const float error = dot(*axes[i], *axes[k]) - (i == k ? 1.0f : 0.0f);
+      if (!math::is_finite(error) || !(error > -1e-3f && error < 1e-3f)) return Status::bad_frame;
+    }
+  }
+  return Status::ok;
 }
 
 namespace detail {
 
-inline void negate(float (&axis)[3]) noexcept {
-  for (float& component : axis) component = 0.0f - component;
-}
-
-/// A neighbour within the frame's radius is a member, unless it is a copy of the key point. Copies move no sum; where
-/// members are counted, the copies' number is taken off.
+/// Members, those who make a frame, lie strictly inside its radius and not at the key point itself: the key point and
+/// its copies move no sum, but must not be counted.
 [[nodiscard]] inline simd::Mask within(const Offsets& v, Radius radius) noexcept {
   return v.d2 < simd::all(radius.squared);
 }
@@ -57,25 +56,24 @@ inline void negate(float (&axis)[3]) noexcept {
 struct Census {
   float farthest_d2;
   int members;
-  int copies;  ///< of the key point, with those that fill up the last register
 };
 
-[[nodiscard]] inline Census take_census(const Neighborhood& n, Radius radius) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline Census take_census(const Neighbors& n, Radius radius) noexcept {
   const simd::F32 zero = simd::all(0.0f);
   simd::F32 farthest = zero;
-  simd::I32 inside{}, copies{};
+  simd::I32 members{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
-    const simd::Mask near = within(v, radius);
-    farthest = simd::max(farthest, keep(near, v.d2));
-    inside = increment(near, inside);
-    if (any(zero >= v.d2)) {  // seldom: the key point itself, and whatever is so close that its square is lost
-      const simd::Mask apart = (v.dx != zero) | (v.dy != zero) | (v.dz != zero);
-      copies = increment(near ^ (near & apart), copies);
+    simd::Mask member = within(v, radius);
+    if (simd::lanes == 1 || any(zero >= v.d2)) {  // seldom: the key point, and whatever is so close that d2 is lost
+      member = member & (simd::abs(v.dx) + simd::abs(v.dy) + simd::abs(v.dz) > zero);
     }
+    if (simd::lanes == 1 && !any(member)) continue;
+    farthest = simd::max(farthest, keep(member, v.d2));
+    members = increment(member, members);
   }
-  const int not_members = sum(copies);
-  return {simd::largest(farthest), sum(inside) - not_members, not_members};
+  return {simd::largest(farthest), sum(members)};
 }
 
 /// How members are brought to fixed point: coordinates times `unit`, a power of two (so that nothing is rounded) that
@@ -91,85 +89,89 @@ struct MemberScale {
   const float farthest = root > 1e-19f ? root : 1e-19f;
   const float unit = 0.5f / math::power_of_two_below(farthest);
   // The largest w |v|^2 with w = 1 - |v| / R: at |v| = 2/3 R, or at the farthest member if that is closer.
-  const float place = 3.0f * farthest > 2.0f * radius.value ? radius.value * 0.6667f : farthest;
+  const float largest_at = radius.value * 0.6667f;
+  const float place = farthest > largest_at ? largest_at : farthest;
   float bound = (1.0f - place / radius.value) * (place * unit) * (place * unit);
-  int bits = 0;
-  for (; bound < 0.49f && bits > -4; bound *= 2.0f) --bits;
-  return {unit, fixed_point_scale(n, bits)};
+  float scale = fixed_point_scale(n);
+  for (int bits = 0; bound < 0.49f && bits < 4; ++bits, bound *= 2.0f) scale *= 2.0f;
+  return {unit, scale};
 }
 
 /// Pass 2: sum of w v v^T over the members (PCL's matrix but for its scale, which moves no eigenvector).
-[[nodiscard]] inline Symmetric3 weighted_scatter(const Neighborhood& n, Radius radius, float farthest_d2) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline SymmetricLanes weighted_scatter(const Neighbors& n, Radius radius, float farthest_d2) noexcept {
   using simd::all;
   using simd::F32;
   const MemberScale to = member_scale(n.size, farthest_d2, radius);
   const F32 unit = all(to.unit);
   const F32 scale = all(to.scale);
   const F32 inverse = all(1.0f / radius.value);
-  simd::I32 xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+  simd::I32 sums[6] = {};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
-    const F32 x = v.dx * unit;
-    const F32 y = v.dy * unit;
-    const F32 z = v.dz * unit;
+    const F32 at[3] = {v.dx * unit, v.dy * unit, v.dz * unit};
     const F32 w = keep(within(v, radius), (all(1.0f) - simd::sqrt(v.d2) * inverse) * scale);
-    const F32 wx = w * x;
-    const F32 wy = w * y;
-    xx = xx + round_to_int(wx * x);
-    xy = xy + round_to_int(wx * y);
-    xz = xz + round_to_int(wx * z);
-    yy = yy + round_to_int(wy * y);
-    yz = yz + round_to_int(wy * z);
-    zz = zz + round_to_int(w * z * z);
+    each<3>([&](auto row) SHORTSHOT_INLINE_LAMBDA {
+      const F32 weighted = w * at[row];
+      each<3>([&](auto column) SHORTSHOT_INLINE_LAMBDA {
+        if (column < row) return;
+        simd::I32& entry = sums[row * (5 - row) / 2 + column];  // of the upper triangle, row by row
+        entry = entry + round_to_int(weighted * at[column]);
+      });
+    });
   }
-  const auto total = [](simd::I32 lanes) { return static_cast<float>(sum(lanes)); };
-  return {total(xx), total(xy), total(xz), total(yy), total(yz), total(zz)};
+  SymmetricLanes total;
+  each<6>([&](auto k) { total.entry[k] = all(static_cast<float>(sum(sums[k]))); });
+  return total;
 }
 
-/// Pass 3: for each of two axes, how many members have v . axis >= 0.
+/// Pass 3: for each of two axes, how many members have v . axis < 0.
 struct AxisVotes {
   int x;
   int z;
 };
 
-[[nodiscard]] inline AxisVotes count_votes(const Neighborhood& n, Radius radius, int copies, const float (&x)[3],
-                                           const float (&z)[3]) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline AxisVotes count_votes_against(const Neighbors& n, Radius radius, const float (&x)[3],
+                                                   const float (&z)[3]) noexcept {
   using simd::all;
   using simd::F32;
   const F32 x_axis[3] = {all(x[0]), all(x[1]), all(x[2])};
   const F32 z_axis[3] = {all(z[0]), all(z[1]), all(z[2])};
-  simd::I32 for_x{}, for_z{};
+  simd::I32 against_x{}, against_z{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const Offsets v = load_offsets(n, i);
     const simd::Mask near = within(v, radius);
     const F32 along_x = (v.dx * x_axis[0] + v.dz * x_axis[2]) + v.dy * x_axis[1];
     const F32 along_z = (v.dx * z_axis[0] + v.dz * z_axis[2]) + v.dy * z_axis[1];
-    for_x = increment((along_x >= all(0.0f)) & near, for_x);
-    for_z = increment((along_z >= all(0.0f)) & near, for_z);
+    against_x = increment((along_x < all(0.0f)) & near, against_x);
+    against_z = increment((along_z < all(0.0f)) & near, against_z);
   }
-  return {sum(for_x) - copies, sum(for_z) - copies};
+  return {sum(against_x), sum(against_z)};
 }
 
 /// PCL's answer to a tied vote: of the five members in the middle of the order by distance, do at least three have
 /// v . axis > 0?
-[[nodiscard]] inline bool middle_votes_for(const Neighborhood& n, Radius radius, const Census& census,
-                                           const float (&axis)[3]) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline bool middle_votes_for(const Neighbors& n, int members, const float (&axis)[3]) noexcept {
+  const int rank = count_before(n, 1) + members / 2 - 2;  // behind the key point and its copies
+  const Place first = place_of_rank(n, rank);
+  const Place end = place_of_rank(n, rank + 5);
   int votes = 0;
-  std::uint32_t i = member_of_rank(n, radius, census.members / 2 - 2);
-  for (int k = 0; k < 5 && i < n.size; ++k) {
-    const float v[3] = {n.dx[i], n.dy[i], n.dz[i]};
-    votes += dot(v, axis) > 0.0f ? 1 : 0;
-    i = next_member(n, radius, {n.d2[i], n.index[i]});
+  for (std::uint32_t i = 0; i < n.size; ++i) {
+    if (place_at(n, i) - first >= end - first) continue;
+    const Offset v = offset_at(n, i);
+    votes += dot({v.dx, v.dy, v.dz}, axis) > 0.0f ? 1 : 0;
   }
   return votes >= 3;
 }
 
 /// Turn an axis towards the majority of the members.
-inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& census, int votes,
-                           float (&axis)[3]) noexcept {
-  const bool tied = 2 * votes == census.members;
-  const bool keep = tied ? middle_votes_for(n, radius, census, axis) : 2 * votes > census.members;
-  if (!keep) negate(axis);
+template <class Neighbors>
+inline void orient_by_vote(const Neighbors& n, int members, int against, float (&axis)[3]) noexcept {
+  const int lead = 2 * against - members;
+  if (lead == 0 ? middle_votes_for(n, members, axis) : lead < 0) return;
+  for (float& component : axis) component = 0.0f - component;
 }
 
 }  // namespace detail
@@ -187,7 +189,8 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& c
 /// neighbourhoods). `frame` is zeroed then. On an exactly planar neighbourhood all members lie at z = 0 and the sign of
 /// z is the solver's unless a viewpoint is given. No allocation, reentrant. The result does not depend on the order of
 /// the neighbours.
-[[nodiscard]] inline Status estimate_frame(const Neighborhood& n, Radius radius, Frame& frame,
+template <class Neighbors>
+[[nodiscard]] inline Status estimate_frame(const Neighbors& n, Radius radius, Frame& frame,
                                            const float* towards_viewpoint = nullptr) noexcept {
   frame = Frame{};
   float view[3] = {};
@@ -196,25 +199,23 @@ inline void orient_by_vote(const Neighborhood& n, Radius radius, const Census& c
   const detail::Census census = detail::take_census(n, radius);
   if (census.members < min_frame_neighbors) return Status::too_few_neighbors;
 
-  const detail::Eigen3 eigen = detail::decompose(detail::weighted_scatter(n, radius, census.farthest_d2));
+  const detail::EigenLanes eigen = detail::decompose(detail::weighted_scatter(n, radius, census.farthest_d2));
   // What float can tell apart, and what the rounding of the members to integers may have moved.
-  const float resolution = rounded(1e-6f * eigen.values[2]) + rounded(0.5f * static_cast<float>(census.members));
-  if (!(eigen.values[2] - eigen.values[1] > resolution && eigen.values[1] - eigen.values[0] > resolution)) {
+  const simd::F32 resolution =
+      simd::all(1e-6f) * eigen.value(2) + simd::all(rounded(0.5f * static_cast<float>(census.members)));
+  if (!any((eigen.value(2) - eigen.value(1) > resolution) & (eigen.value(1) - eigen.value(0) > resolution))) {
     return Status::ambiguous_frame;
   }
 
   for (int k = 0; k < 3; ++k) {
-    frame.x[k] = eigen.vectors[2][k];
-    frame.z[k] = eigen.vectors[0][k];
+    frame.x[k] = simd::largest(eigen.vector(2, k));
+    frame.z[k] = simd::largest(eigen.vector(0, k));
   }
-  const detail::AxisVotes votes = detail::count_votes(n, radius, census.copies, frame.x, frame.z);
-  detail::orient_by_vote(n, radius, census, votes.x, frame.x);
+  detail::AxisVotes against = detail::count_votes_against(n, radius, frame.x, frame.z);
   const float towards = dot(view, frame.z);
-  if (towards == 0.0f) {  // no viewpoint, or one that does not tell
-    detail::orient_by_vote(n, radius, census, votes.z, frame.z);
-  } else if (towards < 0.0f) {
-    detail::negate(frame.z);
-  }
+  if (towards != 0.0f) against.z = towards < 0.0f ? census.members : 0;  // a viewpoint that tells outvotes all members
+  detail::orient_by_vote(n, census.members, against.x, frame.x);
+  detail::orient_by_vote(n, census.members, against.z, frame.z);
   frame.y[0] = rounded(frame.z[1] * frame.x[2]) - rounded(frame.z[2] * frame.x[1]);
   frame.y[1] = rounded(frame.z[2] * frame.x[0]) - rounded(frame.z[0] * frame.x[2]);
   frame.y[2] = rounded(frame.z[0] * frame.x[1]) - rounded(frame.z[1] * frame.x[0]);

@@ -27,15 +27,13 @@ struct SphericalGrid {
   static constexpr int cells = Radial * Elevation * Azimuth;
 };
 
-/// Shells of equal width: the published default. `u` is the distance over the support radius, in [0, 1]; `shell` is how
-/// much one shell counts.
+/// Shells of equal width: the published default. `u` is the distance over the support radius, in [0, 1].
 struct LinearRadius {
   static constexpr BelowZero below_zero = BelowZero::never;
   /// All borders and middles of shells are multiples of 1 / borders.
   static constexpr int borders(int shells) noexcept { return 2 * shells; }
-  template <int Shells>
-  [[nodiscard]] static simd::F32 position(simd::F32 u, float shell) noexcept {
-    return u * simd::all(static_cast<float>(Shells) * shell);
+  [[nodiscard]] static simd::F32 position(const Axis& shells, simd::F32 u) noexcept {
+    return u * simd::all(shells.length());
   }
 };
 
@@ -47,14 +45,15 @@ struct LogRadius {
                 "LogRadius<N, D> supports ratios 0 < N / D <= 0.99");
   static constexpr BelowZero below_zero = BelowZero::first_cell;
   static constexpr int borders(int) noexcept { return 1; }  // in float's own rounding
-  template <int Shells>
-  [[nodiscard]] static simd::F32 position(simd::F32 u, float shell) noexcept {
+  [[nodiscard]] static simd::F32 position(const Axis& shells, simd::F32 u) noexcept {
+    const float shell = shells.one();
     const float log_of_ratio = math::log(static_cast<float>(Numerator) / static_cast<float>(Denominator));
     return simd::apply(
-        [log_of_ratio, shell](float distance) {
+        [=](float distance) {
           // Distances below the smallest normal number have no logarithm; any tiny one lies in the innermost shell.
           const float log_of_distance = math::log(distance > 1e-30f ? distance : 1e-30f);
-          const float p = static_cast<float>(Shells - 1) * (log_of_distance - log_of_ratio) / -log_of_ratio + 1.0f;
+          const float p =
+              static_cast<float>(shells.cells - 1) * (log_of_distance - log_of_ratio) / -log_of_ratio + 1.0f;
           // Below zero, what counts is the rest of a shell: the cell is the innermost one anyway.
           return rounded((p < 0.0f ? p - static_cast<float>(static_cast<int>(p)) : p) * shell);
         },

@@ -24,7 +24,7 @@ class LabTable {
   }
 
   [[nodiscard]] Lab operator()(Rgb color) const noexcept {
-    return detail::lab_by([roots = roots_.data()](int step) { return roots[step]; }, color);
+    return detail::lab_by<Rule>([roots = roots_.data()](int step) { return roots[step]; }, color);
   }
 
  private:

@@ -16,28 +16,22 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// Neighbours per chunk: of this length are all arrays that the kernel has on the stack.
-inline constexpr std::uint32_t chunk_size = 64;
-static_assert(chunk_size % simd::lanes == 0, "registers do not reach beyond the end of a chunk");
-
 /// A chunk of neighbours in the frame's spherical coordinates. Only those that are described: passes need no masks.
-template <bool WithNormals>
+template <bool WithNormals, std::uint32_t Room>
 struct Chunk {
+  static_assert(Room >= simd::lanes && Room <= 1024 && Room % simd::lanes == 0,
+                "ChunkSize supports multiples of simd::lanes up to 1024: registers do not reach beyond its end");
+  static constexpr bool with_normals = WithNormals;
+  static constexpr std::uint32_t room = Room;
   std::uint32_t size;
-  std::uint32_t index[chunk_size];                        ///< in the cloud
-  float coordinates[(WithNormals ? 4 : 3) * chunk_size];  // one array, so that one register holds the place in all
+  std::uint32_t index[Room];                        ///< in the cloud
+  float coordinates[(WithNormals ? 4 : 3) * Room];  // one array, so that one register holds the place in all
 
-  /// From neighbour `i` on: the distance over the radius, 0..1; the angle from +z over pi, 0..1; and the angle from -x,
-  /// counter-clockwise, in turns, 0..1, or below 0 where a convention with poles has none.
-  [[nodiscard]] const float* distance(std::uint32_t i) const noexcept { return coordinates + i; }
-  [[nodiscard]] const float* elevation(std::uint32_t i) const noexcept { return coordinates + i + chunk_size; }
-  [[nodiscard]] const float* azimuth(std::uint32_t i) const noexcept {
-    return coordinates + i + 2 * std::size_t{chunk_size};
-  }
-  /// The normal's component along z, -1..1.
-  [[nodiscard]] const float* cosine(std::uint32_t i) const noexcept {
-    static_assert(WithNormals, "there is one only where a part asks for normals");
-    return coordinates + i + 3 * std::size_t{chunk_size};
+  /// From neighbour `i` on: coordinate 0, the distance over the radius, 0..1; 1, the angle from +z over pi, 0..1; 2,
+  /// the angle from -x, counter-clockwise, in turns, 0..1, or below 0 where a convention with poles has none; and 3,
+  /// the normal's component along z, -1..1.
+  [[nodiscard]] const float* coordinate(int k, std::uint32_t i) const noexcept {
+    return coordinates + i + static_cast<std::size_t>(k) * Room;
   }
 };
 
@@ -49,12 +43,12 @@ template <class Cells>
 }
 
 /// Which of these distances (over the radius) are as close to the border or the middle of a shell as their rounding?
-/// All of both are multiples of 1 / `Borders`.
-template <int Borders>
-[[nodiscard]] inline simd::Mask near_border(simd::F32 distance) noexcept {
-  const simd::F32 position = distance * simd::all(static_cast<float>(Borders));
-  const simd::F32 nearest = to_float(round_to_int(position));
-  return simd::all(1e-6f * static_cast<float>(Borders)) > simd::abs(position - nearest);
+/// All of both are multiples of 1 / `borders`.
+[[nodiscard]] SHORTSHOT_INLINE simd::Mask near_border(simd::F32 distance, float borders) noexcept {
+  const simd::F32 position = distance * simd::all(borders);
+  const simd::F32 whole = simd::all(12582912.0f);  // 1.5 * 2^23: sums with it are rounded to whole numbers
+  const simd::F32 nearest = (position + whole) - whole;
+  return simd::all(1e-6f * borders) > simd::abs(position - nearest);
 }
 
 /// One register of coordinates in the frame, each rounded as the published code rounds it: x + z first, then y.
@@ -77,30 +71,22 @@ struct FrameLanes {
 
 /// Distances over the radius. Points of a regular grid lie exactly on the borders of shells, where one bit decides
 /// which neighbouring shell gets a vote: there, and only there, they are computed with more bits than a float has.
-template <int Borders>
-[[nodiscard, gnu::always_inline]] inline simd::F32 relative_distance(const Offsets& v, const Local& local,
-                                                                     Radius radius) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 relative_distance(const Offsets& v, const Local& local, Radius radius,
+                                                           float borders) noexcept {
   const simd::F32 inverse = simd::all(1.0f / radius.value);
   const simd::F32 distance = simd::sqrt(v.d2) * inverse;
-  if constexpr (Borders > 1) {
-    const simd::Mask near = near_border<Borders>(distance);
-    if (any(near)) {
-      const float splitter = math::length_splitter(radius.value);
-      const simd::F32 exact = math::length(local.x, local.y, local.z, splitter) * inverse;
-      // A frame that is not quite orthonormal must not move its neighbours from border to border.
-      const simd::Mask same = simd::all(2e-6f) > simd::abs(exact - distance);
-      return select(near & same, simd::min(exact, simd::all(1.0f)), distance);
-    }
+  const simd::Mask near = near_border(distance, borders);
+  if (any(near)) {
+    const float splitter = math::length_splitter(radius.value);
+    const simd::F32 exact = math::length(local.x, local.y, local.z, splitter) * inverse;
+    // A frame that is not quite orthonormal must not move its neighbours from border to border.
+    const simd::Mask same = simd::all(2e-6f) > simd::abs(exact - distance);
+    return select(near & same, simd::min(exact, simd::all(1.0f)), distance);
   }
   return distance;
 }
 
-/// The neighbours of one chunk: four stretches of the neighbourhood, `stride` apart, of a quarter chunk each.
-/// Neighbours that follow each other lie in the same cells, where each addition would wait for the one before; a chunk
-/// from four places has others to add in between. (Sums do not depend on the order.) The last chunk has what is left,
-/// in one stretch.
-inline constexpr std::uint32_t stretches_of_full_chunk = 4;
-
+/// The neighbours of one chunk: `count` stretches of the neighbourhood, `stride` apart, of `length` each.
 struct Stretches {
   std::uint32_t first;
   std::uint32_t stride;
@@ -108,11 +94,20 @@ struct Stretches {
   std::uint32_t length;
 };
 
+/// Four stretches for each chunk that is full, where there are lanes. Neighbours that follow each other lie in the same
+/// cells, where each addition would wait for the one before; a chunk from four places has others to add in between.
+/// (Sums do not depend on the order.) The last chunk has what is left, in one stretch; and so has every chunk of a
+/// small CPU, which waits for nothing.
+inline constexpr std::uint32_t stretches_of_full_chunk = 4;
+
+template <std::uint32_t ChunkSize>
 [[nodiscard]] inline Stretches stretches_of_chunk(std::uint32_t chunk, std::uint32_t neighbors) noexcept {
-  constexpr std::uint32_t length = chunk_size / stretches_of_full_chunk;
-  const std::uint32_t full_chunks = neighbors / chunk_size;
-  if (chunk < full_chunks) return {chunk * length, full_chunks * length, stretches_of_full_chunk, length};
-  return {chunk * chunk_size, 0, 1, neighbors - chunk * chunk_size};
+  constexpr std::uint32_t length = ChunkSize / stretches_of_full_chunk;
+  constexpr bool spread = simd::lanes > 1 && length > 0 && length % simd::lanes == 0;
+  const std::uint32_t full_chunks = neighbors / ChunkSize;
+  if (spread && chunk < full_chunks) return {chunk * length, full_chunks * length, stretches_of_full_chunk, length};
+  const std::uint32_t left = neighbors - chunk * ChunkSize;
+  return {chunk * ChunkSize, 0, 1, left < ChunkSize ? left : ChunkSize};
 }
 
 /// One register of neighbours in the coordinates of a chunk, and which of them are described.
@@ -121,22 +116,25 @@ struct Located {
   simd::Mask described;
 };
 
-template <class D, class Normals>
-[[nodiscard, gnu::always_inline]] inline Located locate_register(const Offsets& v, simd::I32 index,
-                                                                 const FrameLanes& frame, Radius radius,
-                                                                 const Normals& normals) noexcept {
+template <class Cells, bool ExactShells, bool WithNormals, class Normals>
+[[nodiscard]] SHORTSHOT_INLINE Located locate_register(const Offsets& v, simd::I32 index, const FrameLanes& frame,
+                                                       Radius radius, float borders, const Normals& normals) noexcept {
   using simd::all;
   const Local local{frame.x.along(v), frame.y.along(v), frame.z.along(v)};
   Located located{};
-  located.distance = relative_distance<D::shell_borders>(v, local, radius);
+  if constexpr (ExactShells) {
+    located.distance = relative_distance(v, local, radius, borders);
+  } else {
+    located.distance = simd::sqrt(v.d2) * all(1.0f / radius.value);
+  }
   const simd::F32 from_axis = simd::sqrt(local.x * local.x + local.y * local.y);
   located.elevation = math::elevation(from_axis, local.z);
   located.azimuth = math::azimuth(local.x, local.y);
-  located.described = are_described<typename D::Cells>(v.d2, radius);
-  if constexpr (D::Cells::has_poles) {
+  located.described = are_described<Cells>(v.d2, radius);
+  if constexpr (Cells::has_poles) {
     located.azimuth = select(from_axis > all(0.0f), located.azimuth, all(-1.0f));
   }
-  if constexpr (D::needs_normals) {
+  if constexpr (WithNormals) {
     std::uint32_t indices[simd::lanes];
     simd::store(indices, index);
     const simd::F32 cosine = frame.z.along(normals(indices));
@@ -146,43 +144,48 @@ template <class D, class Normals>
   return located;
 }
 
-/// Neighbours into a chunk.
-template <class D, class Normals>
-[[gnu::noinline]] inline void locate(const Neighborhood& all, const Stretches& stretches, const Frame& frame,
-                                     Radius radius, const Normals& normals, Chunk<D::needs_normals>& chunk) noexcept {
-  const Neighborhood n = all;  // a local: no store to the chunk can change its pointers
+/// One register of neighbours behind the first `size` of a chunk; `packing` leaves out those that are not described.
+template <class Chunk, class... Packing>
+SHORTSHOT_INLINE void append(Chunk& chunk, std::uint32_t size, simd::I32 index, const Located& located,
+                             const Packing&... packing) noexcept {
+  simd::store(chunk.index + size, index, packing...);
+  float* const coordinates = chunk.coordinates + size;
+  simd::store(coordinates, located.distance, packing...);
+  simd::store(coordinates + Chunk::room, located.elevation, packing...);
+  simd::store(coordinates + 2 * std::size_t{Chunk::room}, located.azimuth, packing...);
+  if constexpr (Chunk::with_normals) {
+    simd::store(coordinates + 3 * std::size_t{Chunk::room}, located.cosine, packing...);
+  }
+}
+
+/// Neighbours into a chunk. (Nothing here depends on the descriptor but through the arguments: many of them share
+/// this.)
+template <class Cells, bool ExactShells, class Neighbors, class Normals, class Chunk>
+[[gnu::noinline]] inline void locate(const Neighbors& all, const Stretches& stretches, const Frame& frame,
+                                     Radius radius, float borders, const Normals& normals, Chunk& chunk) noexcept {
+  const Neighbors n = all;  // a local: no store to the chunk can change its pointers
   const FrameLanes axes{AxisLanes(frame.x), AxisLanes(frame.y), AxisLanes(frame.z)};
   std::uint32_t size = 0;
   for (std::uint32_t k = 0; k < stretches.count; ++k) {
     const std::uint32_t first = stretches.first + k * stretches.stride;
     const std::uint32_t end = first + stretches.length;
     for (std::uint32_t i = first; i < end; i += simd::lanes) {
-      const Offsets v = load_offsets(n, i);
       const simd::I32 index = load_indices(n, i);
-      const Located now = locate_register<D>(v, index, axes, radius, normals);
-      const auto append = [&](const auto&... packing) {
-        simd::store(chunk.index + size, index, packing...);
-        float* const coordinates = chunk.coordinates + size;
-        simd::store(coordinates, now.distance, packing...);
-        simd::store(coordinates + chunk_size, now.elevation, packing...);
-        simd::store(coordinates + 2 * std::size_t{chunk_size}, now.azimuth, packing...);
-        if constexpr (D::needs_normals) {
-          simd::store(coordinates + 3 * std::size_t{chunk_size}, now.cosine, packing...);
-        }
-      };
+      const Located now = locate_register<Cells, ExactShells, Chunk::with_normals>(load_offsets(n, i), index, axes,
+                                                                                   radius, borders, normals);
       if (every(now.described)) {
-        append();
+        append(chunk, size, index, now);
         size += static_cast<std::uint32_t>(simd::lanes);
-      } else {
+      } else if constexpr (simd::lanes > 1) {
         const simd::Packing packing = simd::packing(now.described);
-        append(packing);
+        append(chunk, size, index, now, packing);
         size += packing.count;
       }
     }
   }
   chunk.size = size;
   // What passes read beyond the end must be colours that exist.
-  for (; size % simd::lanes != 0; ++size) chunk.index[size] = n.index[stretches.first];
+  for (; size % simd::lanes != 0; ++size) chunk.index[size] = index_at(n, stretches.first);
 }
 
 }  // namespace detail

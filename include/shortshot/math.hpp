@@ -8,6 +8,7 @@
 
 #include "rounded.hpp"
 #include "simd.hpp"
+#include "unroll.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -21,41 +22,38 @@ namespace math {
 }
 
 [[nodiscard]] inline bool is_finite(const float (&v)[3]) noexcept {
-  return is_finite(v[0]) && is_finite(v[1]) && is_finite(v[2]);
+  for (const float component : v) {
+    if (!is_finite(component)) return false;
+  }
+  return true;
 }
 
-/// The angle of (far, near), both >= 0, above the diagonal, in units of which a power of two make a turn: up to 1/8
-/// turn either way, within 6e-8. A minimax fit with both ends exact, because points on axes and diagonals lie on the
-/// borders of cells. Of (0, 0), or of what is not finite: -1/8.
-template <int UnitsPerTurn>
-[[nodiscard, gnu::always_inline]] inline simd::F32 angle_above_diagonal(simd::F32 far, simd::F32 near) noexcept {
+/// The angle of (far, near), both >= 0, in turns and less a quarter turn: -1/4 to 0, within 6e-8. A minimax fit with
+/// both ends exact, because points on axes and diagonals lie on the borders of cells. Of (0, 0), or of what is not
+/// finite: -1/4.
+[[nodiscard]] inline simd::F32 angle_below_quarter(simd::F32 far, simd::F32 near) noexcept {
   using simd::all;
-  constexpr auto unit = static_cast<float>(UnitsPerTurn);
-  // The tangent of an angle minus an eighth of a turn. max() gives its second argument where the first is NaN.
+  constexpr float fit[] = {0.00106037291698158f, -0.00527749117463827f, 0.0125921480357647f, -0.0210182461887598f,
+                           0.0315139554440975f,  -0.0530250333249569f,  0.159154295921326f};
+  // The tangent of the angle minus an eighth of a turn. max() gives its second argument where the first is NaN.
   const simd::F32 t = simd::max((near - far) / (near + far), all(-1.0f));
   const simd::F32 s = t * t;
-  simd::F32 p = all(unit * 0.00106037291698158f);
-  p = p * s + all(unit * -0.00527749117463827f);
-  p = p * s + all(unit * 0.0125921480357647f);
-  p = p * s + all(unit * -0.0210182461887598f);
-  p = p * s + all(unit * 0.0315139554440975f);
-  p = p * s + all(unit * -0.0530250333249569f);
-  p = p * s + all(unit * 0.159154295921326f);
-  return p * t;
+  simd::F32 p = all(fit[0]);
+  detail::each<6>([&](auto k) SHORTSHOT_INLINE_LAMBDA { p = p * s + all(fit[k + 1]); });
+  return p * t - all(0.125f);
 }
 
 /// The angle from the z axis, 0 at z > 0 to 1 at z < 0 (theta / pi); rho >= 0 is the distance from the axis.
 [[nodiscard]] inline simd::F32 elevation(simd::F32 rho, simd::F32 z) noexcept {
-  using simd::all;
-  const simd::F32 above_equator = angle_above_diagonal<2>(simd::abs(z), rho) - all(0.25f);  // of (rho, |z|): -1/2 to 0
-  return all(0.5f) + simd::flip_sign(above_equator, z);
+  const simd::F32 before_equator = angle_below_quarter(simd::abs(z), rho);
+  return simd::all(0.5f) + simd::flip_sign(before_equator + before_equator, z);
 }
 
 /// (atan2(y, x) + pi) / 2 pi in [0, 1]: 1 for y = 0, x < 0.
 [[nodiscard]] inline simd::F32 azimuth(simd::F32 x, simd::F32 y) noexcept {
   using simd::all;
-  const simd::F32 before_quarter = angle_above_diagonal<1>(simd::abs(x), simd::abs(y)) - all(0.125f);  // -1/4 to 0
-  const simd::F32 half = all(0.25f) + simd::negate(x < all(0.0f), before_quarter);                     // 0 to 1/2
+  const simd::F32 before_quarter = angle_below_quarter(simd::abs(x), simd::abs(y));
+  const simd::F32 half = all(0.25f) + simd::negate(x < all(0.0f), before_quarter);  // 0 to 1/2
   return all(0.5f) + simd::negate(y < all(0.0f), half);
 }
 
@@ -74,34 +72,6 @@ template <int UnitsPerTurn>
       s + rounded(s * s2 *
                   (0.333333333f + rounded(s2 * (0.2f + rounded(s2 * (0.142857143f + rounded(s2 * 0.111111111f)))))));
   return rounded(static_cast<float>(exponent) * 0.693147181f) + rounded(2.0f * artanh);
-}
-
-/// A number kept as the sum of two floats, the second at most 2^-7 of the first: a few bits more than one float has.
-struct Sum2 {
-  float high;
-  float low;
-};
-
-/// Cube root of a number from 1e-3 to 1; high + low is within 2e-9 of it, so that it can be rounded once, at the end.
-[[nodiscard]] inline Sum2 cbrt(float value) noexcept {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  bits = bits / 3u + 0x2A5137A0u;  // exponent / 3: a guess within 4 %
-  float root = 0.0f;
-  std::memcpy(&root, &bits, sizeof root);
-  for (int step = 0; step < 2; ++step) {  // Halley: to 2e-7
-    const float cube = rounded(root * root * root);
-    root = root * (cube + rounded(2.0f * value)) / (rounded(2.0f * cube) + value);
-  }
-  // The cube of an 8-bit number is exact in float, and so is its distance to the value. With root = high + low:
-  // value - high^3 = low (3 high^2 + 3 high low + low^2).
-  std::memcpy(&bits, &root, sizeof bits);
-  bits &= 0xFFFF0000u;
-  float high = 0.0f;
-  std::memcpy(&high, &bits, sizeof high);
-  const float low = root - high;
-  const float rest = value - rounded(high * high * high);
-  return {high, rest / (rounded(3.0f * high * (high + low)) + rounded(low * low))};
 }
 
 /// The largest power of two not above a positive normal number.
@@ -126,11 +96,14 @@ struct Sum2 {
   using simd::F32;
   const F32 quantum = simd::all(splitter);
   const auto coarse = [&](F32 v) { return (v + quantum) - quantum; };
-  const F32 cx = coarse(x);
-  const F32 cy = coarse(y);
-  const F32 cz = coarse(z);
-  const F32 exact = cx * cx + cy * cy + cz * cz;
-  const F32 rest = (x - cx) * (x + cx) + (y - cy) * (y + cy) + (z - cz) * (z + cz);
+  const F32 of[3] = {x, y, z};
+  F32 exact = simd::all(0.0f);
+  F32 rest = simd::all(0.0f);
+  detail::each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+    const F32 part = coarse(of[k]);
+    exact = exact + part * part;
+    rest = rest + (of[k] - part) * (of[k] + part);
+  });
 
   const F32 root = simd::sqrt(exact + rest);
   const F32 coarse_root = coarse(root);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "cloud.hpp"
 #include "config.hpp"
@@ -41,6 +42,29 @@ struct Workspace {
   std::uint32_t index[MaxNeighbors];
 };
 
+/// The same in a tenth of the memory: indices only. Offsets are worked out from the cloud whenever they are asked for,
+/// with the same bits. Trivial type.
+template <class Index>
+struct CompactNeighborhood {
+  Float3Channel points;  ///< of the cloud
+  Point center;          ///< the key point
+  Index* index;          ///< the neighbour's index in the cloud, `capacity` elements; no two are the same
+  std::uint32_t capacity;
+  std::uint32_t size;   ///< neighbours stored, the key point itself and its copies included
+  std::uint32_t found;  ///< neighbours found; more than `capacity` if they did not fit
+};
+
+/// A Workspace of 2 bytes a neighbour (`Index` std::uint32_t: 4) for targets that have more time than memory. Clouds of
+/// more points than `Index` can tell apart have too_many_neighbors, whatever the key point.
+template <std::size_t MaxNeighbors, class Index = std::uint16_t>
+struct CompactWorkspace {
+  static_assert(MaxNeighbors >= 5 && MaxNeighbors <= max_neighbors,
+                "CompactWorkspace<MaxNeighbors> supports 5 (a local reference frame needs as many) to 2^24 neighbours");
+  static_assert(std::is_same<Index, std::uint16_t>::value || std::is_same<Index, std::uint32_t>::value,
+                "CompactWorkspace<MaxNeighbors, Index> supports uint16_t and uint32_t");
+  Index index[MaxNeighbors];
+};
+
 inline namespace SHORTSHOT_ISA {
 
 /// A support radius in metres and its square. Neighbours are points with float d2 < squared: strictly inside.
@@ -64,10 +88,48 @@ struct Radius {
   return usable ? Status::ok : Status::bad_radius;
 }
 
-/// An empty neighbourhood in a workspace's memory.
+/// An empty neighbourhood in a workspace's memory; of a compact one around the key point `center` of a cloud.
 template <std::size_t MaxNeighbors>
 [[nodiscard]] inline Neighborhood neighborhood_in(Workspace<MaxNeighbors>& w) noexcept {
   return {w.dx, w.dy, w.dz, w.d2, w.index, static_cast<std::uint32_t>(MaxNeighbors), 0, 0};
+}
+
+template <std::size_t MaxNeighbors>
+[[nodiscard]] inline Neighborhood neighborhood_in(Workspace<MaxNeighbors>& w, const CloudView&, const Point&) noexcept {
+  return neighborhood_in(w);
+}
+
+template <std::size_t MaxNeighbors, class Index>
+[[nodiscard]] inline CompactNeighborhood<Index> neighborhood_in(CompactWorkspace<MaxNeighbors, Index>& w,
+                                                                const CloudView& cloud, const Point& center) noexcept {
+  const bool all_have_indices = cloud.size - 1 <= static_cast<Index>(~Index{0});
+  return {cloud.points, center, w.index, all_have_indices ? static_cast<std::uint32_t>(MaxNeighbors) : 0u, 0, 0};
+}
+
+/// From the key point to a neighbour, in metres, and how far that is, squared: summed as (dx*dx + dy*dy) + dz*dz.
+struct Offset {
+  float dx, dy, dz, d2;
+};
+
+[[nodiscard]] inline Offset offset_of(const Point& p, const Point& center) noexcept {
+  const float dx = p.x - center.x;
+  const float dy = p.y - center.y;
+  const float dz = p.z - center.z;
+  return {dx, dy, dz, (rounded(dx * dx) + rounded(dy * dy)) + rounded(dz * dz)};
+}
+
+/// Neighbour `i`, one by one.
+[[nodiscard]] inline Offset offset_at(const Neighborhood& n, std::uint32_t i) noexcept {
+  return {n.dx[i], n.dy[i], n.dz[i], n.d2[i]};
+}
+template <class Index>
+[[nodiscard]] inline Offset offset_at(const CompactNeighborhood<Index>& n, std::uint32_t i) noexcept {
+  return offset_of(read(n.points, n.index[i]), n.center);
+}
+
+template <class Neighbors>
+[[nodiscard]] inline std::uint32_t index_at(const Neighbors& n, std::uint32_t i) noexcept {
+  return n.index[i];
 }
 
 /// One register of neighbours, from `i` on. What is left over at the end comes with copies of the key point (all
@@ -76,31 +138,46 @@ struct Offsets {
   simd::F32 dx, dy, dz, d2;
 };
 
-[[nodiscard, gnu::always_inline]] inline Offsets load_offsets(const Neighborhood& n, std::uint32_t i) noexcept {
+template <class Neighbors>
+[[nodiscard]] SHORTSHOT_INLINE Offsets load_offsets_one_by_one(const Neighbors& n, std::uint32_t i) noexcept {
+  float lanes[4][simd::lanes] = {};
+  for (std::uint32_t k = 0; k < simd::lanes && k < n.size - i; ++k) {
+    const Offset v = offset_at(n, i + k);
+    lanes[0][k] = v.dx;
+    lanes[1][k] = v.dy;
+    lanes[2][k] = v.dz;
+    lanes[3][k] = v.d2;
+  }
+  return {simd::load(lanes[0]), simd::load(lanes[1]), simd::load(lanes[2]), simd::load(lanes[3])};
+}
+
+[[nodiscard]] SHORTSHOT_INLINE Offsets load_offsets(const Neighborhood& n, std::uint32_t i) noexcept {
   if (n.size - i >= simd::lanes) {
     return {simd::load(n.dx + i), simd::load(n.dy + i), simd::load(n.dz + i), simd::load(n.d2 + i)};
   }
-  float rest[4][simd::lanes];
-  for (float(&lanes)[simd::lanes] : rest) simd::store(lanes, simd::all(0.0f));
-  for (std::uint32_t k = 0; k < n.size - i; ++k) {
-    rest[0][k] = n.dx[i + k];
-    rest[1][k] = n.dy[i + k];
-    rest[2][k] = n.dz[i + k];
-    rest[3][k] = n.d2[i + k];
-  }
-  return {simd::load(rest[0]), simd::load(rest[1]), simd::load(rest[2]), simd::load(rest[3])};
+  return load_offsets_one_by_one(n, i);
+}
+
+template <class Index>
+[[nodiscard]] SHORTSHOT_INLINE Offsets load_offsets(const CompactNeighborhood<Index>& n, std::uint32_t i) noexcept {
+  return load_offsets_one_by_one(n, i);
 }
 
 /// The same register's indices; 0 for what is left over.
-[[nodiscard, gnu::always_inline]] inline simd::I32 load_indices(const Neighborhood& n, std::uint32_t i) noexcept {
-  if (n.size - i >= simd::lanes) return simd::load(n.index + i);
-  std::uint32_t rest[simd::lanes] = {};
-  for (std::uint32_t k = 0; k < n.size - i; ++k) rest[k] = n.index[i + k];
-  return simd::load(rest);
+template <class Neighbors>
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 load_indices(const Neighbors& n, std::uint32_t i) noexcept {
+  std::uint32_t lanes[simd::lanes] = {};
+  for (std::uint32_t k = 0; k < simd::lanes && k < n.size - i; ++k) lanes[k] = index_at(n, i + k);
+  return simd::load(lanes);
+}
+
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 load_indices(const Neighborhood& n, std::uint32_t i) noexcept {
+  return n.size - i >= simd::lanes ? simd::load(n.index + i) : load_indices<Neighborhood>(n, i);
 }
 
 /// How many of the neighbours lie within a radius, the key point and its copies included.
-[[nodiscard]] inline std::uint32_t count_within(const Neighborhood& n, Radius radius) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline std::uint32_t count_within(const Neighbors& n, Radius radius) noexcept {
   simd::I32 counts{};
   std::uint32_t i = 0;
   for (; i < n.size; i += simd::lanes) {
@@ -113,7 +190,8 @@ namespace detail {
 
 /// What every estimate from a neighbourhood asks of its arguments; `view` gets the vector to the viewpoint, if there is
 /// one.
-[[nodiscard]] inline Status check_estimate(const Neighborhood& n, Radius radius, const float* towards_viewpoint,
+template <class Neighbors>
+[[nodiscard]] inline Status check_estimate(const Neighbors& n, Radius radius, const float* towards_viewpoint,
                                            float (&view)[3]) noexcept {
   const Status usable = check(radius);
   if (usable != Status::ok) return usable;
@@ -124,34 +202,43 @@ namespace detail {
 
 }  // namespace detail
 
+/// Write down neighbour `i`.
+inline void put(Neighborhood& n, std::uint32_t i, const Offset& v, std::uint32_t index) noexcept {
+  n.dx[i] = v.dx;
+  n.dy[i] = v.dy;
+  n.dz[i] = v.dz;
+  n.d2[i] = v.d2;
+  n.index[i] = index;
+}
+template <class Index>
+inline void put(CompactNeighborhood<Index>& n, std::uint32_t i, const Offset&, std::uint32_t index) noexcept {
+  n.index[i] = static_cast<Index>(index);
+}
+
 /// Offer one point of the cloud to the neighbourhood: THE membership rule, for every search. A point is a neighbour if
 /// its float squared distance is strictly below `radius_squared`; written so that NaN is refused.
-inline void offer(Neighborhood& out, const Point& p, std::uint32_t index, const Point& center,
+template <class Neighbors>
+inline void offer(Neighbors& out, const Point& p, std::uint32_t index, const Point& center,
                   float radius_squared) noexcept {
-  const float dx = p.x - center.x;
-  const float dy = p.y - center.y;
-  const float dz = p.z - center.z;
-  const float d2 = (rounded(dx * dx) + rounded(dy * dy)) + rounded(dz * dz);
-  if (!(d2 < radius_squared)) return;
+  const Offset v = offset_of(p, center);
+  if (!(v.d2 < radius_squared)) return;
   if (out.size < out.capacity) {
-    out.dx[out.size] = dx;
-    out.dy[out.size] = dy;
-    out.dz[out.size] = dz;
-    out.d2[out.size] = d2;
-    out.index[out.size] = index;
+    put(out, out.size, v, index);
     ++out.size;
   }
   ++out.found;
 }
 
 /// To be called by a search before it offers the first point.
-inline void clear(Neighborhood& out) noexcept {
+template <class Neighbors>
+inline void clear(Neighbors& out) noexcept {
   out.size = 0;
   out.found = 0;
 }
 
 /// To be returned by a search after it has offered the last point.
-[[nodiscard]] inline Status outcome(const Neighborhood& out) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline Status outcome(const Neighbors& out) noexcept {
   return out.found > out.capacity ? Status::too_many_neighbors : Status::ok;
 }
 

@@ -14,11 +14,12 @@ inline namespace SHORTSHOT_ISA {
 
 /// The normals of a cloud's own channel: what a NormalCosine looks at. A neighbour whose normal is not finite has none.
 struct CloudNormals {
-  CloudView cloud;
-  [[nodiscard]] Status status() const noexcept { return has_normals(cloud) ? Status::ok : Status::missing_normals; }
+  Float3Channel normals;  ///< the cloud's
+  explicit CloudNormals(const CloudView& cloud) noexcept : normals(cloud.normals) {}
+  [[nodiscard]] Status status() const noexcept { return normals.x != nullptr ? Status::ok : Status::missing_normals; }
   /// One register of normals by index.
   [[nodiscard, gnu::always_inline]] PointLanes operator()(const std::uint32_t* index) const noexcept {
-    return read_lanes(cloud.normals, [index](std::size_t lane) { return std::size_t{index[lane]}; });
+    return read_lanes(normals, [index](std::size_t lane) { return std::size_t{index[lane]}; });
   }
 };
 

@@ -30,11 +30,12 @@ struct MomentScale {
 
 /// The finest for `n` points that are no farther than `farthest`.
 [[nodiscard]] inline MomentScale moment_scale(std::uint32_t n, float farthest) noexcept {
-  return {1.0f / farthest, fixed_point_scale(n, 0)};
+  return {1.0f / farthest, fixed_point_scale(n)};
 }
 
 /// How far the members reach; 1e-19 m at least: below that, squares are lost to underflow.
-[[nodiscard]] inline float farthest_member(const Neighborhood& n, Radius radius) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline float farthest_member(const Neighbors& n, Radius radius) noexcept {
   simd::F32 farthest = simd::all(0.0f);
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const simd::F32 d2 = load_offsets(n, i).d2;
@@ -78,7 +79,8 @@ template <class TermOf>
 }
 
 /// The sums over one neighbourhood, in every lane.
-[[nodiscard]] inline Moments moments_of(const Neighborhood& n, Radius radius, const MomentScale& by) noexcept {
+template <class Neighbors>
+[[nodiscard]] inline Moments moments_of(const Neighbors& n, Radius radius, const MomentScale& by) noexcept {
   Moments shares{};
   std::uint32_t i = 0;
   for (; i < n.size; i += simd::lanes) {
@@ -118,12 +120,12 @@ template <class TermOf>
   const F32 mean_x = x * weight;
   const F32 mean_y = y * weight;
   const F32 mean_z = z * weight;
-  const EigenLanes eigen = decompose_lanes({moment(3) - x * mean_x, moment(4) - x * mean_y, moment(5) - x * mean_z,
-                                            moment(6) - y * mean_y, moment(7) - y * mean_z, moment(8) - z * mean_z});
+  const EigenLanes eigen = decompose({{moment(3) - x * mean_x, moment(4) - x * mean_y, moment(5) - x * mean_z,
+                                       moment(6) - y * mean_y, moment(7) - y * mean_z, moment(8) - z * mean_z}});
   // What float can tell apart, and what the rounding of the members to integers may have moved.
-  const F32 resolution = all(1e-6f) * eigen.values[2] + all(4.0f) * members;
-  const simd::Mask flat = eigen.values[1] - eigen.values[0] > resolution;
-  const F32(&axis)[3] = eigen.vectors[0];
+  const F32 resolution = all(1e-6f) * eigen.value(2) + all(4.0f) * members;
+  const simd::Mask flat = eigen.value(1) - eigen.value(0) > resolution;
+  const F32(&axis)[4] = eigen.of[0];
   const simd::Mask away = (axis[0] * towards.x + axis[2] * towards.z) + axis[1] * towards.y < all(0.0f);
   const auto turned = [&](int k) { return negate(away, axis[k]) + all(0.0f); };  // no negative zeros
   return keep(flat, PointLanes{turned(0), turned(1), turned(2)});
@@ -156,7 +158,8 @@ inline void store(Normal* normals, const PointLanes& v) noexcept {
 /// three); ambiguous_frame (the two smaller extents are equal within float resolution: the neighbours lie on a line, or
 /// in one place). `normal` is zeroed then. No allocation, reentrant. The result does not depend on the order of the
 /// neighbours.
-[[nodiscard]] inline Status estimate_normal(const Neighborhood& n, Radius radius, const float* towards_viewpoint,
+template <class Neighbors>
+[[nodiscard]] inline Status estimate_normal(const Neighbors& n, Radius radius, const float* towards_viewpoint,
                                             Normal& normal) noexcept {
   normal = Normal{};
   float view[3] = {};

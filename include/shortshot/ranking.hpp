@@ -1,8 +1,7 @@
-// shortshot/ranking.hpp: the members of a neighbourhood that make its frame, and their rank in distance without
-// sorting.
+// shortshot/ranking.hpp: the neighbours' order by distance, without sorting.
 //
 // PCL sorts every neighbourhood because a tied vote over an axis' sign looks at the five members in the middle. Ties
-// are rare (2 to 5 key points in a hundred), so the order is asked for only then, and found by bisection in place.
+// are rare (2 to 5 key points in a hundred), so the order is asked for only then, and found by counting.
 #pragma once
 
 #include <cstdint>
@@ -16,85 +15,48 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// A member makes a frame: it lies strictly inside the frame's radius and not at the key point itself.
-[[nodiscard]] inline bool is_member(const Neighborhood& n, std::uint32_t i, Radius radius) noexcept {
-  return n.d2[i] < radius.squared && (n.dx[i] != 0.0f || n.dy[i] != 0.0f || n.dz[i] != 0.0f);
+/// Where a neighbour stands in the order: by squared distance (bits of floats >= 0 order as the floats do), then by
+/// index in the cloud. The key point and its copies come first, at 0.
+using Place = std::uint64_t;
+
+template <class Neighbors>
+[[nodiscard]] inline Place place_at(const Neighbors& n, std::uint32_t i) noexcept {
+  const Offset v = offset_at(n, i);
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &v.d2, sizeof bits);
+  if (bits == 0 && v.dx == 0.0f && v.dy == 0.0f && v.dz == 0.0f) return 0;
+  return (Place{bits} << 32 | index_at(n, i)) + 1;
 }
 
-/// A place in the order of members: by squared distance, then by index in the cloud (below all of them: -1).
-struct Place {
-  float d2;
-  std::int64_t index;
-};
-
-[[nodiscard]] inline bool before(Place a, Place b) noexcept {
-  return a.d2 < b.d2 || (a.d2 == b.d2 && a.index < b.index);
-}
-
-/// The first member behind a place; n.size if there is none.
-[[nodiscard]] inline std::uint32_t next_member(const Neighborhood& n, Radius radius, Place place) noexcept {
-  std::uint32_t best = n.size;
-  for (std::uint32_t i = 0; i < n.size; ++i) {
-    const Place candidate{n.d2[i], n.index[i]};
-    if (!before(place, candidate) || !is_member(n, i, radius)) continue;
-    if (best == n.size || before(candidate, {n.d2[best], n.index[best]})) best = i;
-  }
-  return best;
-}
-
-/// How many neighbours have a squared distance of at most `limit`.
-[[nodiscard]] inline int count_within(const Neighborhood& n, float limit) noexcept {
-  simd::I32 within{};
+/// How many neighbours stand before a place.
+template <class Neighbors>
+[[nodiscard]] inline int count_before(const Neighbors& n, Place limit) noexcept {
+  int count = 0;
   std::uint32_t i = 0;
-  for (; n.size - i >= simd::lanes; i += simd::lanes) {
-    within = increment(simd::all(limit) >= simd::load(n.d2 + i), within);
+  if (simd::lanes > 1 && limit << 32 == 0) {  // whoever is closer, whole registers at a time
+    const auto bits = static_cast<std::uint32_t>(limit >> 32);
+    float d2 = 0.0f;
+    std::memcpy(&d2, &bits, sizeof d2);
+    simd::I32 closer{};
+    for (; n.size - i >= simd::lanes; i += simd::lanes) {
+      closer = increment(load_offsets(n, i).d2 < simd::all(d2), closer);
+    }
+    count = sum(closer);
   }
-  int count = sum(within);
-  for (; i < n.size; ++i) count += n.d2[i] <= limit ? 1 : 0;
+  for (; i < n.size; ++i) count += place_at(n, i) < limit ? 1 : 0;
   return count;
 }
 
-/// The smallest number in [low, high] for which `enough` holds; it does for `high`, and for all above one for which it
-/// does.
-template <class Predicate>
-[[nodiscard]] inline std::uint32_t bisect(std::uint32_t low, std::uint32_t high, const Predicate& enough) noexcept {
-  while (low < high) {
-    const std::uint32_t middle = low + (high - low) / 2;
-    if (enough(middle)) {
-      high = middle;
-    } else {
-      low = middle + 1;
-    }
+/// A place with `rank` neighbours before it, found bit by bit; `rank` must be less than their number.
+template <class Neighbors>
+[[nodiscard]] inline Place place_of_rank(const Neighbors& n, int rank) noexcept {
+  Place place = 0;
+  for (Place bit = Place{1} << 62; bit != 0; bit >>= 1) {
+    const int before = count_before(n, place | bit);
+    if (before <= rank) place |= bit;
+    if (before == rank) break;
   }
-  return low;
-}
-
-/// The member of the given rank; rank 0 is the closest. The neighbourhood must have more members than that.
-[[nodiscard]] inline std::uint32_t member_of_rank(const Neighborhood& n, Radius radius, int rank) noexcept {
-  int copies = 0;  // of the key point: at distance 0, and within every limit
-  for (std::uint32_t i = 0; i < n.size; ++i) copies += n.d2[i] == 0.0f && !is_member(n, i, radius) ? 1 : 0;
-  const auto as_float = [](std::uint32_t bits) {
-    float value = 0.0f;
-    std::memcpy(&value, &bits, sizeof value);
-    return value;
-  };
-  // Bits of floats >= 0 order as the floats do.
-  std::uint32_t most = 0;
-  std::memcpy(&most, &radius.squared, sizeof most);
-  const auto within = [&](std::uint32_t bits) { return count_within(n, as_float(bits)) - copies; };
-  const std::uint32_t bits = bisect(0, most, [&](std::uint32_t limit) { return within(limit) > rank; });
-  const float d2 = as_float(bits);
-  const int closer = bits == 0 ? 0 : within(bits - 1);
-  if (rank == closer) return next_member(n, radius, {d2, -1});
-
-  const std::uint32_t index = bisect(0, 0xFFFFFFFFu, [&](std::uint32_t limit) {
-    int equally_far = 0;
-    for (std::uint32_t i = 0; i < n.size; ++i) {
-      equally_far += n.d2[i] == d2 && n.index[i] <= limit && is_member(n, i, radius) ? 1 : 0;
-    }
-    return equally_far > rank - closer;
-  });
-  return next_member(n, radius, {d2, static_cast<std::int64_t>(index) - 1});
+  return place;
 }
 
 }  // namespace detail

@@ -6,138 +6,109 @@
 // every matrix, so a register's lanes hold as many matrices, each with the bits that it would have alone.
 #pragma once
 
-#include <initializer_list>
-
 #include "config.hpp"
 #include "simd.hpp"
+#include "unroll.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// Upper triangle of a symmetric matrix.
-struct Symmetric3 {
-  float xx, xy, xz, yy, yz, zz;
-};
-
-/// Eigenvalues in ascending order; vectors[i] belongs to values[i] and has unit length. Signs are the solver's.
-struct Eigen3 {
-  float values[3];
-  float vectors[3][3];
-};
-
-/// The same of one matrix in each lane.
+/// The upper triangle of a symmetric matrix in each lane: xx, xy, xz, yy, yz, zz.
 struct SymmetricLanes {
-  simd::F32 xx, xy, xz, yy, yz, zz;
-};
-struct EigenLanes {
-  simd::F32 values[3];
-  simd::F32 vectors[3][3];
+  simd::F32 entry[6];
 };
 
-/// One Jacobi rotation in the plane (p, q) that makes a[p][q] zero, in those lanes where that is worth while; the
-/// columns of v collect the rotations. Entries are at most 2. Returns whether it was worth while anywhere.
-inline bool rotate(simd::F32 (&a)[3][3], simd::F32 (&v)[3][3], int p, int q) noexcept {
+/// Eigenvectors of unit length, each followed by its eigenvalue, which ascend. Signs are the solver's.
+struct EigenLanes {
+  simd::F32 of[3][4];
+
+  [[nodiscard]] simd::F32 value(int i) const noexcept { return of[i][3]; }
+  [[nodiscard]] simd::F32 vector(int i, int k) const noexcept { return of[i][k]; }
+};
+
+/// One Jacobi rotation in the plane (p, q), in those lanes where it is worth while: it makes zero what couples the two
+/// axes. off[k] is the entry outside of the diagonal that is in neither row nor column k. Entries are at most 2.
+/// Returns whether it was worth while anywhere.
+SHORTSHOT_INLINE bool rotate(EigenLanes& e, simd::F32 (&off)[3], int p, int q) noexcept {
   using simd::all;
   using simd::F32;
+  F32& coupling = off[3 - p - q];
+  F32& value_p = e.of[p][3];
+  F32& value_q = e.of[q][3];
   // The tangent of an angle of at most an eighth of a turn.
-  const F32 off = a[p][q];
-  const F32 gap = a[q][q] - a[p][p];
+  const F32 gap = value_q - value_p;
   const F32 wide = simd::abs(gap);
-  const F32 high = simd::abs(off);
+  const F32 high = simd::abs(coupling);
   const simd::Mask turns = high - all(1e-12f) > wide * all(7e-9f);  // else no component moves by half its last bit
   if (!any(turns)) return false;
   const simd::Mask slight = all(8192.0f) * high < wide;  // float knows no better; most rotations but the first few
-  const F32 root = simd::sqrt(gap * gap + all(4.0f) * (off * off));
+  const F32 root = simd::sqrt(gap * gap + all(4.0f) * (coupling * coupling));
   const F32 sum = gap + simd::negate(gap < all(0.0f), root);
-  const F32 t = keep(turns, select(slight, off, off + off) / select(slight, gap, sum));
+  const F32 t = keep(turns, select(slight, coupling, coupling + coupling) / select(slight, gap, sum));
   const F32 c = all(1.0f) / simd::sqrt(t * t + all(1.0f));
   const F32 s = t * c;
-  const int r = 3 - p - q;  // the row that is not rotated
 
-  const F32 moved = t * off;
-  a[p][p] = a[p][p] - moved;
-  a[q][q] = a[q][q] + moved;
-  a[p][q] = a[q][p] = select(turns, all(0.0f), off);
-  const F32 rp = a[r][p];
-  const F32 rq = a[r][q];
-  a[r][p] = a[p][r] = c * rp - s * rq;
-  a[r][q] = a[q][r] = s * rp + c * rq;
-  for (int k = 0; k < 3; ++k) {
-    const F32 vp = v[k][p];
-    const F32 vq = v[k][q];
-    v[k][p] = c * vp - s * vq;
-    v[k][q] = s * vp + c * vq;
-  }
+  const F32 moved = t * coupling;
+  value_p = value_p - moved;
+  value_q = value_q + moved;
+  coupling = select(turns, all(0.0f), coupling);
+  F32* first = off + q;
+  F32* second = off + p;
+  each<4>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+    const F32 at_p = *first;
+    const F32 at_q = *second;
+    *first = c * at_p - s * at_q;
+    *second = s * at_p + c * at_q;
+    first = &e.of[p][k];
+    second = &e.of[q][k];
+  });
   return true;
 }
 
-/// The largest power of two not above the largest entry.
-[[nodiscard]] inline simd::F32 scale_of(const SymmetricLanes& m) noexcept {
-  simd::F32 largest = simd::all(1.17549435e-38f);
-  for (const simd::F32* entry : {&m.xx, &m.xy, &m.xz, &m.yy, &m.yz, &m.zz}) {
-    largest = simd::max(simd::abs(*entry), largest);
-  }
-  return from_bits(bits_of(largest) & simd::all_int(0x7F800000));
-}
-
 /// Eigen-decompositions. They converge quadratically: six sweeps are twice what any float matrix was seen to need.
-[[nodiscard]] inline EigenLanes decompose_lanes(const SymmetricLanes& m) noexcept {
+[[nodiscard]] inline EigenLanes decompose(const SymmetricLanes& m) noexcept {
   using simd::all;
   using simd::F32;
-  const F32 scale = scale_of(m);
+  F32 largest = all(1.17549435e-38f);
+  for (const F32& entry : m.entry) largest = simd::max(simd::abs(entry), largest);
+  const F32 scale = from_bits(bits_of(largest) & simd::all_int(0x7F800000));  // the power of two below it
   const F32 unit = all(1.0f) / scale;
-  const F32 zero = all(0.0f);
-  const F32 one = all(1.0f);
-  F32 a[3][3] = {{m.xx * unit, m.xy * unit, m.xz * unit},
-                 {m.xy * unit, m.yy * unit, m.yz * unit},
-                 {m.xz * unit, m.yz * unit, m.zz * unit}};
-  F32 v[3][3] = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
+  EigenLanes e;
+  F32 off[3];
+  const F32* entry = m.entry;
+  each<3>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
+    each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      e.of[i][k] = all(i == k ? 1.0f : 0.0f);
+      if (k >= i) (k == i ? e.of[i][3] : off[3 - i - k]) = *entry++ * unit;
+    });
+  });
   bool turned = true;
   for (int sweep = 0; sweep < 6 && turned; ++sweep) {
-    turned = rotate(a, v, 0, 1);
-    turned = rotate(a, v, 0, 2) || turned;
-    turned = rotate(a, v, 1, 2) || turned;
+    turned = false;
+    for (int p = 0; p < 2; ++p) {
+      for (int q = p + 1; q < 3; ++q) turned = rotate(e, off, p, q) || turned;
+    }
   }
 
-  const auto sort_pair = [&](int i, int j) {
-    const simd::Mask swap = a[j][j] < a[i][i];
-    const auto exchange = [&](F32& first, F32& second) {
-      const F32 before = first;
-      first = select(swap, second, first);
-      second = select(swap, before, second);
-    };
-    exchange(a[i][i], a[j][j]);
-    for (F32(&row)[3] : v) exchange(row[i], row[j]);
-  };
-  sort_pair(0, 1);
-  sort_pair(1, 2);
-  sort_pair(0, 1);
-
-  EigenLanes result;
-  for (int i = 0; i < 3; ++i) {
-    const F32 length = simd::sqrt(v[0][i] * v[0][i] + v[1][i] * v[1][i] + v[2][i] * v[2][i]);
-    result.values[i] = a[i][i] * scale;
-    for (int k = 0; k < 3; ++k) result.vectors[i][k] = v[k][i] / length;
-  }
-  return result;
-}
-
-/// Eigen-decomposition of one matrix.
-[[nodiscard]] inline Eigen3 decompose(const Symmetric3& m) noexcept {
-  using simd::all;
-  const EigenLanes lanes = decompose_lanes({all(m.xx), all(m.xy), all(m.xz), all(m.yy), all(m.yz), all(m.zz)});
-  const auto first = [](simd::F32 number) {
-    float values[simd::lanes];
-    simd::store(values, number);
-    return values[0];
-  };
-  Eigen3 result;
-  for (int i = 0; i < 3; ++i) {
-    result.values[i] = first(lanes.values[i]);
-    for (int k = 0; k < 3; ++k) result.vectors[i][k] = first(lanes.vectors[i][k]);
-  }
-  return result;
+  each<3>([&](auto step) SHORTSHOT_INLINE_LAMBDA {  // sort: exchange 0 and 1, 1 and 2, 0 and 1
+    F32(&first)[4] = e.of[step % 2];
+    F32(&second)[4] = e.of[step % 2 + 1];
+    const simd::Mask swap = second[3] < first[3];
+    if (!any(swap)) return;
+    each<4>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      const F32 before = first[k];
+      first[k] = select(swap, second[k], before);
+      second[k] = select(swap, before, second[k]);
+    });
+  });
+  each<3>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
+    F32(&v)[4] = e.of[i];
+    const F32 length = simd::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    each<3>([&](auto k) { v[k] = v[k] / length; });
+    v[3] = v[3] * scale;
+  });
+  return e;
 }
 
 }  // namespace detail

@@ -11,6 +11,13 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
+/// Was the compiler asked for small code?
+#if defined(__OPTIMIZE_SIZE__)
+inline constexpr bool small_code = true;
+#else
+inline constexpr bool small_code = false;
+#endif
+
 template <class Function, int... I>
 [[gnu::always_inline]] inline void unroll(Function f, std::integer_sequence<int, I...>) noexcept {
   (f(std::integral_constant<int, I>{}), ...);
@@ -20,6 +27,16 @@ template <class Function, int... I>
 template <int Count, class Function>
 [[gnu::always_inline]] inline void unroll(Function f) noexcept {
   unroll(f, std::make_integer_sequence<int, Count>{});
+}
+
+/// The same for functions that need no constants: written out for speed, a loop where code shall be small.
+template <int Count, class Function>
+SHORTSHOT_INLINE void each(Function f) noexcept {
+  if constexpr (small_code) {
+    for (int i = 0; i < Count; ++i) f(i);
+  } else {
+    unroll<Count>(f);
+  }
 }
 
 }  // namespace detail

@@ -29,7 +29,6 @@ struct Share {
   simd::I32 cell;           ///< index of the primary cell, times the axis' stride
   simd::I32 step;           ///< index of the partner cell minus that of the primary one; 0 where there is no partner
   simd::I32 twice_partner;  ///< twice the partner's share in units: 0 to 1, to 3 below zero; the rest is the cell's
-  simd::Mask alone;         ///< there is no partner: only where the axis ends
 };
 
 /// The votes of one point: `Count` indices into the part and their weights, in units.
@@ -42,70 +41,75 @@ struct Votes {
 namespace detail {
 
 /// The cell of a position. The very end of the axis is the upper border of the last cell.
-template <class Axis>
-[[nodiscard]] inline simd::I32 cell_of(simd::I32 position) noexcept {
-  const simd::I32 cell = simd::small_min(simd::shift_right(position, Axis::bits), simd::all_int(Axis::cells - 1));
-  return Axis::below_zero == BelowZero::never ? cell : simd::small_max(cell, simd::all_int(0));
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 cell_of(const Axis& axis, simd::I32 position) noexcept {
+  const simd::I32 cell = simd::small_min(simd::shift_right(position, axis.bits), simd::all_int(axis.cells - 1));
+  return axis.below_zero == BelowZero::never ? cell : simd::small_max(cell, simd::all_int(0));
 }
 
-template <int Factor>
-[[nodiscard]] inline simd::I32 times(simd::I32 a) noexcept {
-  if constexpr (Factor == 1) {
-    return a;
-  } else if constexpr (Factor < 32768) {
-    return simd::small_product(a, simd::all_int(Factor));
-  } else {
-    return times<Factor / 2>(a) + times<Factor - Factor / 2>(a);
-  }
+/// Cells, or -1, 0 or 1 of them, times a number of values below 2^22.
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 times(simd::I32 a, std::int32_t factor) noexcept {
+  if (factor == 1) return a;
+  const simd::I32 low = simd::small_product(a, simd::all_int(factor & 32767));
+  return factor < 32768 ? low : low + simd::shift_left(simd::small_product(a, simd::all_int(factor >> 15)), 15);
 }
 
 /// From a cell to the next one in a direction (1 or -1), around the ends.
-template <class Axis>
-[[nodiscard, gnu::always_inline]] inline simd::I32 next_around(simd::I32 cell, simd::I32 direction) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 next_around(const Axis& axis, simd::I32 cell, simd::I32 direction) noexcept {
   using simd::all_int;
   const simd::I32 next = cell + direction;
-  if constexpr ((Axis::cells & (Axis::cells - 1)) == 0) return next & all_int(Axis::cells - 1);
-  return (next + keep(is_negative(next), all_int(Axis::cells))) -
-         keep(next > all_int(Axis::cells - 1), all_int(Axis::cells));
+  if (!small_code && (axis.cells & (axis.cells - 1)) == 0) return next & all_int(axis.cells - 1);
+  return (next + keep(is_negative(next), all_int(axis.cells))) -
+         keep(next > all_int(axis.cells - 1), all_int(axis.cells));
 }
 
-/// The share of a position in a cell: fraction 0 is the cell's lower border, 2^Axis::bits its upper one. `Rounds`: the
+/// The share of a position in a cell: fraction 0 is the cell's lower border, 2^axis.bits its upper one. `rounds`: the
 /// partner's share is rounded to the nearest unit, not down.
-template <class Axis, bool Rounds = false>
-[[nodiscard, gnu::always_inline]] inline Share share(simd::I32 cell, simd::I32 fraction,
-                                                     const VoteUnit& unit) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE Share share(const Axis& axis, simd::I32 cell, simd::I32 fraction, const VoteUnit& unit,
+                                           bool rounds) noexcept {
   using simd::all_int;
-  constexpr std::int32_t half = std::int32_t{1} << (Axis::bits - 1);
+  const std::int32_t half = std::int32_t{1} << (axis.bits - 1);
   const simd::I32 side = fraction - all_int(half + 1);
   const simd::Mask lower = is_negative(side);  // the middle of the cell included
   const simd::I32 direction = minus_one_or_one(lower);
   // The partner's share is the distance from the middle; ~side = -side - 1 is what is left up to it.
   simd::I32 distance = invert(lower, side);
-  const int finer_bits = Axis::bits - unit.bits - 1;
-  if (Rounds) distance = distance + all_int((std::int32_t{1} << finer_bits) >> 1);
+  const int finer_bits = axis.bits - unit.bits - 1;
+  if (rounds) distance = distance + all_int((std::int32_t{1} << finer_bits) >> 1);
   const simd::I32 twice_partner = simd::shift_right(distance, finer_bits);
-  const simd::I32 index = times<Axis::stride>(cell);
-  if constexpr (Axis::cells == 1) return {index, all_int(0), twice_partner, all_int(0) == all_int(0)};
-  if constexpr (Axis::end == Beyond::first_cell) {
-    const simd::I32 step = times<Axis::stride>(next_around<Axis>(cell, direction) - cell);
-    return {index, step, twice_partner, all_int(0) == all_int(1)};
+  const simd::I32 index = times(cell, axis.stride);
+  if (axis.cells == 1) return {index, all_int(0), twice_partner};
+  if (axis.end == Beyond::first_cell) {
+    return {index, times(next_around(axis, cell, direction) - cell, axis.stride), twice_partner};
   }
-  const simd::Mask alone = cell == drop(lower, all_int(Axis::cells - 1));  // first and lower, or last and upper
-  return {index, drop(alone, times<Axis::stride>(direction)), twice_partner, alone};
+  const simd::Mask alone = cell == drop(lower, all_int(axis.cells - 1));  // first and lower, or last and upper
+  return {index, drop(alone, times(direction, axis.stride)), twice_partner};
 }
 
 /// The share of a position in the cell it lies in.
-template <class Axis, bool Rounds = false>
-[[nodiscard, gnu::always_inline]] inline Share share_in_cell(simd::I32 position, const VoteUnit& unit) noexcept {
-  const simd::I32 cell = cell_of<Axis>(position);
-  return share<Axis, Rounds>(cell, position - simd::shift_left(cell, Axis::bits), unit);
+[[nodiscard]] SHORTSHOT_INLINE Share share_in_cell(const Axis& axis, simd::I32 position, const VoteUnit& unit,
+                                                   bool rounds) noexcept {
+  const simd::I32 cell = cell_of(axis, position);
+  return share(axis, cell, position - simd::shift_left(cell, axis.bits), unit, rounds);
+}
+
+/// Are there positions on this axis without a partner?
+[[nodiscard]] constexpr bool may_be_alone(const Axis& axis) noexcept {
+  return small_code || axis.cells == 1 || axis.end == Beyond::nothing || axis.below_zero == BelowZero::nowhere;
 }
 
 template <int Axes>
-[[nodiscard]] inline simd::I32 primary_index(const Share (&shares)[Axes]) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 primary_index(const Share (&shares)[4]) noexcept {
   simd::I32 index = shares[0].cell;
-  unroll<Axes - 1>([&](auto i) { index = index + shares[i + 1].cell; });
+  each<Axes - 1>([&](auto i) { index = index + shares[i + 1].cell; });
   return index;
+}
+
+/// The sum of all axes' shares, twice, that partners have.
+template <int Axes>
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 twice_all_partners(const Share (&shares)[4]) noexcept {
+  simd::I32 sum = shares[0].twice_partner;
+  each<Axes - 1>([&](auto i) { sum = sum + shares[i + 1].twice_partner; });
+  return sum;
 }
 
 }  // namespace detail
@@ -124,36 +128,32 @@ struct AdditiveVoting {
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
-  template <class Axis>
-  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
-    simd::I32 fraction = position & simd::all_int((std::int32_t{1} << Axis::bits) - 1);
-    if constexpr (Axis::below_zero != BelowZero::never) {
+  [[nodiscard]] SHORTSHOT_INLINE static Share split(const Axis& axis, simd::I32 position,
+                                                    const VoteUnit& unit) noexcept {
+    simd::I32 fraction = position & simd::all_int((std::int32_t{1} << axis.bits) - 1);
+    if (axis.below_zero != BelowZero::never) {
       const simd::Mask below = is_negative(position);
       fraction = keep(below, position) + drop(below, fraction);
     }
-    return detail::share<Axis>(detail::cell_of<Axis>(position), fraction, unit);
+    return detail::share(axis, detail::cell_of(axis, position), fraction, unit, false);
   }
 
-  template <class... AllAxes>
-  [[nodiscard, gnu::always_inline]] static Votes<sizeof...(AllAxes) + 1> combine(
-      const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
+  template <int Axes>
+  [[nodiscard]] SHORTSHOT_INLINE static Votes<Axes + 1> combine(const Axis (&axes)[4], const Share (&shares)[4],
+                                                                const VoteUnit& unit) noexcept {
     using simd::all_int;
-    constexpr int axes = sizeof...(AllAxes);
-    constexpr bool may_be_alone[] = {AllAxes::cells == 1 || AllAxes::end == Beyond::nothing...};
-    simd::I32 twice_partners = shares[0].twice_partner;
-    detail::unroll<axes - 1>([&](auto i) { twice_partners = twice_partners + shares[i + 1].twice_partner; });
-    const simd::I32 sum = all_int(axes * unit.one) - simd::shift_right(twice_partners, 1);
+    const simd::I32 sum = all_int(Axes * unit.one) - simd::shift_right(detail::twice_all_partners<Axes>(shares), 1);
     const simd::I32 rest = sum - all_int(unit.one);
 
-    Votes<axes + 1> votes;
-    votes.index[0] = detail::primary_index(shares);
+    Votes<Axes + 1> votes;
+    votes.index[0] = detail::primary_index<Axes>(shares);
     votes.weight[0] = sum;
-    detail::unroll<axes>([&](auto i) {
+    detail::each<Axes>([&](auto i) {
       // A share 1 - p replaced by p.
       simd::I32 weight = rest + shares[i].twice_partner;
-      if constexpr (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all_int(unit.one));
+      if (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all_int(unit.one));
       votes.index[i + 1] = votes.index[0] + shares[i].step;
-      votes.weight[i + 1] = may_be_alone[i] ? drop(shares[i].alone, weight) : weight;
+      votes.weight[i + 1] = detail::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
     });
     return votes;
   }
@@ -173,40 +173,33 @@ struct SeparateVoting {
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
-  template <class Axis>
-  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
-    Share share = detail::share_in_cell<Axis, true>(position, unit);
-    if constexpr (Axis::below_zero == BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
+  [[nodiscard]] SHORTSHOT_INLINE static Share split(const Axis& axis, simd::I32 position,
+                                                    const VoteUnit& unit) noexcept {
+    Share share = detail::share_in_cell(axis, position, unit, true);
+    if (axis.below_zero == BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
       const simd::Mask nowhere = is_negative(position);
       share.twice_partner = drop(nowhere, share.twice_partner) + keep(nowhere, simd::all_int(2 * unit.one));
-      share.alone = share.alone | nowhere;
+      share.step = drop(nowhere, share.step);
     }
     return share;
   }
 
-  template <class... AllAxes>
-  [[nodiscard, gnu::always_inline]] static Votes<sizeof...(AllAxes) + 1> combine(
-      const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
+  template <int Axes>
+  [[nodiscard]] SHORTSHOT_INLINE static Votes<Axes + 1> combine(const Axis (&axes)[4], const Share (&shares)[4],
+                                                                const VoteUnit& unit) noexcept {
     using simd::all_int;
-    constexpr int axes = sizeof...(AllAxes);
-    constexpr bool may_be_alone[] = {AllAxes::cells == 1 || AllAxes::end == Beyond::nothing ||
-                                     AllAxes::below_zero == BelowZero::nowhere...};
-    constexpr int cells[] = {AllAxes::cells...};
-    simd::I32 twice_partners = shares[0].twice_partner;
-    detail::unroll<axes - 1>([&](auto i) { twice_partners = twice_partners + shares[i + 1].twice_partner; });
-
-    Votes<axes + 1> votes;
-    votes.index[0] = detail::primary_index(shares);
-    votes.weight[0] = all_int(2 * axes * unit.one) - twice_partners;
-    detail::unroll<axes>([&](auto i) {
+    Votes<Axes + 1> votes;
+    votes.index[0] = detail::primary_index<Axes>(shares);
+    votes.weight[0] = all_int(2 * Axes * unit.one) - detail::twice_all_partners<Axes>(shares);
+    detail::each<Axes>([&](auto i) {
       const simd::I32 weight = shares[i].twice_partner;
       simd::I32 index = votes.index[0] + shares[i].step;
-      if constexpr (WrapLastBin && i == 3) {
-        constexpr std::int32_t last = cells[3] - 1;
+      if (WrapLastBin && i == 3) {
+        const std::int32_t last = axes[3].cells - 1;
         index = index - keep(shares[3].cell + shares[3].step == all_int(last), all_int(last));
       }
       votes.index[i + 1] = index;
-      votes.weight[i + 1] = may_be_alone[i] ? drop(shares[i].alone, weight) : weight;
+      votes.weight[i + 1] = detail::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
     });
     return votes;
   }
@@ -222,17 +215,15 @@ struct HardVoting {
   template <int Axes>
   static constexpr int votes = 1;
 
-  template <class Axis>
-  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit&) noexcept {
+  [[nodiscard]] SHORTSHOT_INLINE static Share split(const Axis& axis, simd::I32 position, const VoteUnit&) noexcept {
     using simd::all_int;
-    return {detail::times<Axis::stride>(detail::cell_of<Axis>(position)), all_int(0), all_int(0),
-            all_int(0) == all_int(0)};
+    return {detail::times(detail::cell_of(axis, position), axis.stride), all_int(0), all_int(0)};
   }
 
-  template <class... AllAxes>
-  [[nodiscard, gnu::always_inline]] static Votes<1> combine(const Share (&shares)[sizeof...(AllAxes)],
-                                                            const VoteUnit& unit) noexcept {
-    return {{detail::primary_index(shares)}, {simd::all_int(unit.one)}};
+  template <int Axes>
+  [[nodiscard]] SHORTSHOT_INLINE static Votes<1> combine(const Axis (&)[4], const Share (&shares)[4],
+                                                         const VoteUnit& unit) noexcept {
+    return {{detail::primary_index<Axes>(shares)}, {simd::all_int(unit.one)}};
   }
 };
 
@@ -244,23 +235,22 @@ struct MultilinearVoting {
   template <int Axes>
   static constexpr int votes = 1 << Axes;
 
-  template <class Axis>
-  [[nodiscard, gnu::always_inline]] static Share split(simd::I32 position, const VoteUnit& unit) noexcept {
-    Share share = detail::share_in_cell<Axis>(position, unit);
-    share.twice_partner = drop(share.alone, share.twice_partner);
+  [[nodiscard]] SHORTSHOT_INLINE static Share split(const Axis& axis, simd::I32 position,
+                                                    const VoteUnit& unit) noexcept {
+    Share share = detail::share_in_cell(axis, position, unit, false);
+    share.twice_partner = drop(share.step == simd::all_int(0), share.twice_partner);
     return share;
   }
 
-  template <class... AllAxes>
-  [[nodiscard, gnu::always_inline]] static Votes<(1 << sizeof...(AllAxes))> combine(
-      const Share (&shares)[sizeof...(AllAxes)], const VoteUnit& unit) noexcept {
-    constexpr int axes = sizeof...(AllAxes);
+  template <int Axes>
+  [[nodiscard]] SHORTSHOT_INLINE static Votes<(1 << Axes)> combine(const Axis (&)[4], const Share (&shares)[4],
+                                                                   const VoteUnit& unit) noexcept {
     const simd::F32 half = simd::all(0.5f / static_cast<float>(unit.one));
-    Votes<(1 << axes)> votes;
-    simd::F32 weight[1 << axes];
-    votes.index[0] = detail::primary_index(shares);
+    Votes<(1 << Axes)> votes;
+    simd::F32 weight[1 << Axes];
+    votes.index[0] = detail::primary_index<Axes>(shares);
     weight[0] = simd::all(static_cast<float>(unit.one));
-    detail::unroll<axes>([&](auto axis) {
+    detail::unroll<Axes>([&](auto axis) {
       constexpr int count = 1 << decltype(axis)::value;
       const simd::F32 partner = to_float(shares[axis].twice_partner) * half;
       detail::unroll<count>([&](auto i) {
@@ -269,7 +259,7 @@ struct MultilinearVoting {
         weight[i] = weight[i] - weight[count + i];
       });
     });
-    detail::unroll<(1 << axes)>([&](auto i) { votes.weight[i] = round_to_int(weight[i]); });
+    detail::each<(1 << Axes)>([&](auto i) { votes.weight[i] = round_to_int(weight[i]); });
     return votes;
   }
 };

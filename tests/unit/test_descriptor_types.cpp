@@ -105,8 +105,8 @@ TEST_CASE("descriptor types: a value's index says where the point lies, bin, she
   using D = ss::Scsh<Grid<2, 3, 4>, Grid<2, 3, 4>, 5, ss::HardVoting>;
   std::vector<float> out = unit::garbage<D>();
   const ss::Frame upright{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  REQUIRE(ss::describe<D>(n, ss::detail::rgb_colors<D>(cloud.view(), {0, 0, 0}), upright, 1.0f, out.data()) ==
-          ss::Status::ok);
+  const ss::RgbColors<D::LabRule> colors{cloud.view(), ss::to_lab<D::LabRule>({0, 0, 0})};
+  REQUIRE(ss::describe<D>(n, colors, upright, 1.0f, out.data()) == ss::Status::ok);
   // r = 0.64: shell 1 of 2. theta = 62 degrees: cell 1 of 3. phi = 45: cell 2 of 4. Distance 0.38: bin 1 of 5.
   for (int i = 0; i < D::size; ++i) {
     const bool hit = i == Shape::index(1, 1, 2) || i == D::offset(1) + Color::index(1, 1, 2, 1);

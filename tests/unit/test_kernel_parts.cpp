@@ -9,12 +9,16 @@
 using namespace unit;
 namespace detail = ss::detail;
 
-TEST_CASE("kernel parts: chunks take every neighbour exactly once, in at most four stretches") {
-  for (std::uint32_t size = 0; size <= 5 * detail::chunk_size; ++size) {
+namespace {
+
+template <std::uint32_t ChunkSize>
+void check_chunks() {
+  for (std::uint32_t size = 0; size <= 5 * ChunkSize; ++size) {
     std::vector<int> taken(size, 0);
-    for (std::uint32_t chunk = 0; chunk * detail::chunk_size < size; ++chunk) {
-      const detail::Stretches stretches = detail::stretches_of_chunk(chunk, size);
-      REQUIRE(stretches.count * stretches.length <= detail::chunk_size);
+    for (std::uint32_t chunk = 0; chunk * ChunkSize < size; ++chunk) {
+      const detail::Stretches stretches = detail::stretches_of_chunk<ChunkSize>(chunk, size);
+      REQUIRE(stretches.count <= 4);
+      REQUIRE(stretches.count * stretches.length <= ChunkSize);
       for (std::uint32_t k = 0; k < stretches.count; ++k) {
         for (std::uint32_t i = 0; i < stretches.length; ++i) {
           ++taken.at(stretches.first + k * stretches.stride + i);
@@ -25,9 +29,18 @@ TEST_CASE("kernel parts: chunks take every neighbour exactly once, in at most fo
   }
 }
 
+}  // namespace
+
+TEST_CASE("kernel parts: chunks take every neighbour exactly once, in at most four stretches") {
+  check_chunks<ss::default_chunk_size>();
+  check_chunks<1>();
+  check_chunks<8>();
+  check_chunks<24>();
+}
+
 TEST_CASE("kernel parts: the votes of as many neighbours as there may be fit int32, and positions are finer") {
   for (const std::uint32_t n : {1u, 2u, 3u, 549u, 1u << 16, (1u << 16) + 1, ss::max_neighbors}) {
-    const ss::VoteUnit unit = detail::vote_unit<ss::Scsh336::position_bits>(n);
+    const ss::VoteUnit unit = detail::vote_unit(n, ss::Scsh336::position_bits, 2);
     CHECK(unit.one == std::int32_t{1} << unit.bits);
     CHECK(std::int64_t{4} * unit.one * n <= std::int64_t{1} << 30);
     CHECK(unit.bits < ss::Scsh336::position_bits);
@@ -35,7 +48,7 @@ TEST_CASE("kernel parts: the votes of as many neighbours as there may be fit int
   }
   using Finest = ss::Ssh<ss::SphericalGrid<1024, 1, 1>>;
   CHECK(Finest::position_bits == 20);
-  CHECK(detail::vote_unit<Finest::position_bits>(1).bits == 19);
+  CHECK(detail::vote_unit(1, Finest::position_bits, 2).bits == 19);
 }
 
 TEST_CASE("kernel parts: tied votes of neighbours at one distance, with one index, stay inside the neighbourhood") {

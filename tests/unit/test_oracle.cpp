@@ -82,8 +82,8 @@ void compare_one(const TestCloud& cloud, std::size_t key, float radius, float fr
       oracle::describe(described, cloud.rgb, {color.r, color.g, color.b}, expected_frame, radius, config);
   std::vector<float> ours = garbage<D>();
   REQUIRE(expected.values.size() == ours.size());
-  REQUIRE(ss::describe<D>(n, ss::detail::rgb_colors<D>(cloud.view(), color), to_frame(expected_frame), radius,
-                          ours.data()) == ss::Status::ok);
+  const auto colors = ss::detail::colors_of<D>(cloud.view(), color, static_cast<ss::detail::ConvertEach*>(nullptr));
+  REQUIRE(ss::describe<D>(n, colors, to_frame(expected_frame), radius, ours.data()) == ss::Status::ok);
   double l2 = 0.0;
   double largest = 0.0;
   for (std::size_t i = 0; i < ours.size(); ++i) {

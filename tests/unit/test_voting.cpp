@@ -104,22 +104,19 @@ std::int32_t first_lane(const ss::simd::I32& value) {
 }
 
 /// A position in cells along an axis, split.
-template <class Voting, class Axis>
-ss::Share split(float cells) {
-  return Voting::template split<Axis>(ss::simd::all_int(static_cast<std::int32_t>(cells * Axis::one)), unit_of_votes);
+template <class Voting>
+ss::Share split(const ss::Axis& axis, float cells) {
+  return Voting::split(axis, ss::simd::all_int(static_cast<std::int32_t>(cells * axis.one())), unit_of_votes);
 }
 
 /// The weights of all votes of one point at a position in cells, added up.
 template <class Voting, int R, int E, int A, int H>
 double sum_of_votes(float r, float e, float a, float h) {
   using Part = ss::Part<ss::SphericalGrid<R, E, A>, ss::ColorDistance<H>>;
-  using Radial = typename Part::template RadialAxis<>;
-  using Elevation = typename Part::template ElevationAxis<>;
-  using Azimuth = typename Part::template AzimuthAxis<>;
-  using Signal = typename Part::SignalAxis;
-  const ss::Share shares[4] = {split<Voting, Radial>(r), split<Voting, Elevation>(e), split<Voting, Azimuth>(a),
-                               split<Voting, Signal>(h)};
-  const auto votes = Voting::template combine<Radial, Elevation, Azimuth, Signal>(shares, unit_of_votes);
+  const float position[4] = {r, e, a, h};
+  ss::Share shares[4];
+  for (int axis = 0; axis < 4; ++axis) shares[axis] = split<Voting>(Part::template axes<Part::values>[axis], position[axis]);
+  const auto votes = Voting::template combine<4>(Part::template axes<Part::values>, shares, unit_of_votes);
   double sum = 0.0;
   for (const ss::simd::I32& weight : votes.weight) {
     CHECK(first_lane(weight) >= 0);
@@ -205,14 +202,14 @@ TEST_CASE("voting: phi of exactly +180 degrees is the last cell; its partner is 
 }
 
 TEST_CASE("voting: the very middle of a cell has the lower neighbour for a partner") {
-  using Axis = ss::Axis<4, 10, ss::Beyond::nothing, 27>;
+  constexpr ss::Axis axis{4, 10, ss::Beyond::nothing, ss::BelowZero::never, 27};
   const auto check_rule = [&](auto voting) {
     using Voting = decltype(voting);
-    const ss::Share middle = split<Voting, Axis>(1.5f);
+    const ss::Share middle = split<Voting>(axis, 1.5f);
     CHECK(first_lane(middle.cell) == 10);
     CHECK(first_lane(middle.step) == -10);
     CHECK(first_lane(middle.twice_partner) == 0);
-    const ss::Share above = split<Voting, Axis>(std::nextafter(1.5f, 2.0f));
+    const ss::Share above = split<Voting>(axis, std::nextafter(1.5f, 2.0f));
     CHECK(first_lane(above.step) == 10);
   };
   check_rule(ss::PublishedVoting{});

@@ -14,10 +14,11 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 
 /// A search is anything with three functions:
-/// * `Status gather(Point center, Radius radius, Neighborhood& out) const noexcept` offers each valid point within the
-///   radius to `out` exactly once, in any order, by the index it has in the cloud. It returns status() if that is
-///   not ok, and too_many_neighbors if `out` is too small, with the number in `out.found`. It allocates nothing, and
-///   several threads may call it at once;
+/// * `Status gather(Point center, Radius radius, Neighbors& out) const noexcept`, for Neighborhood and any other that
+/// it
+///   shall work with, offers each valid point within the radius to `out` exactly once, in any order, by the index it
+///   has in the cloud. It returns status() if that is not ok, and too_many_neighbors if `out` is too small, with the
+///   number in `out.found`. It allocates nothing, and several threads may call it at once;
 /// * `Status status() const noexcept` says why it cannot be asked, if so: what its build() returned;
 /// * `std::size_t cloud_size() const noexcept` is the size of its cloud, so that it is not asked about another one.
 struct BruteSearch {
@@ -27,12 +28,16 @@ struct BruteSearch {
 
   [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud.size; }
 
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
+    const Point at = center;  // locals: what is stored cannot change them
+    Neighbors found = out;
     for (std::size_t i = 0; i < cloud.size; ++i) {
-      offer(out, point(cloud, i), static_cast<std::uint32_t>(i), center, radius.squared);
+      offer(found, point(cloud, i), static_cast<std::uint32_t>(i), at, radius.squared);
     }
+    out = found;
     return outcome(out);
   }
 };

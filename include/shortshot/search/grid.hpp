@@ -94,12 +94,13 @@ class Grid {
   [[nodiscard]] std::size_t size() const noexcept { return points_; }
   [[nodiscard]] std::size_t cells() const noexcept { return box_.cells(); }
 
+  template <class Neighbors>
   [[nodiscard]] Status gather(const Contents& contents, const Point& center, Radius radius,
-                              Neighborhood& out) const noexcept {
+                              Neighbors& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
     if (!is_finite(center)) return Status::ok;
-    Neighborhood found = out;
+    Neighbors found = out;
     // The margin covers the rounding of d2, of the gaps and of the chord: each row gets all cells it needs.
     const float reach = rounded(radius.value * 1.000002f);
     const CellRange y = box_.range(1, center.y, reach);
@@ -205,8 +206,9 @@ class Grid {
   }
 
   /// Cells that follow each other are one run of points.
+  template <class Neighbors>
   void offer_cells(const Contents& contents, std::size_t first, std::size_t last, const Point& center,
-                   float radius_squared, Neighborhood& out) const noexcept {
+                   float radius_squared, Neighbors& out) const noexcept {
     const std::size_t begin = begin_of(contents, first);
     const std::size_t end = contents.cell_end[last];
     if (contents.xyz != nullptr) {
@@ -255,7 +257,8 @@ class GridIndex {
   /// Number of points in the index: the cloud's valid ones.
   [[nodiscard]] std::size_t size() const noexcept { return grid_.size(); }
 
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     return grid_.gather({memory_.order, memory_.cell_end, memory_.xyz}, center, radius, out);
   }
 
@@ -282,7 +285,8 @@ class StaticGrid {
   [[nodiscard]] Status status() const noexcept { return grid_.status(); }
   [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     return grid_.gather({order_, cell_end_, nullptr}, center, radius, out);
   }
 

@@ -52,7 +52,8 @@ class GridSearch {
   [[nodiscard]] Status status() const noexcept { return grid_.status(); }
   [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     return grid_.gather({order_.data(), cell_end_.data(), xyz_.data()}, center, radius, out);
   }
 

@@ -33,12 +33,13 @@ struct NanoflannCloud {
 
 /// A nanoflann result set that passes candidates straight on to a neighbourhood: queries allocate nothing, and whether
 /// a candidate is a neighbour is decided by the same rule, in the same arithmetic, as in every other search.
+template <class Neighbors>
 class NanoflannSink {
  public:
   using DistanceType = float;
   using IndexType = std::uint32_t;
 
-  NanoflannSink(const NanoflannCloud& points, const Point& center, Radius radius, Neighborhood& out)
+  NanoflannSink(const NanoflannCloud& points, const Point& center, Radius radius, Neighbors& out)
       : points_(points), center_(center), radius_(radius), out_(out) {}
 
   bool addPoint(float, std::uint32_t i) {
@@ -57,7 +58,7 @@ class NanoflannSink {
   const NanoflannCloud& points_;
   Point center_;
   Radius radius_;
-  Neighborhood& out_;
+  Neighbors& out_;
 };
 
 }  // namespace detail
@@ -82,11 +83,12 @@ class NanoflannSearch {
 
   [[nodiscard]] std::size_t cloud_size() const noexcept { return points_.cloud.size; }
 
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
     if (!is_finite(center)) return Status::ok;
-    detail::NanoflannSink sink(points_, center, radius, out);
+    detail::NanoflannSink<Neighbors> sink(points_, center, radius, out);
     const float query[3] = {center.x, center.y, center.z};
     tree_.findNeighbors(sink, query, {});  // {}: SearchParams up to 1.4, SearchParameters from 1.5 on
     return outcome(out);

@@ -34,6 +34,20 @@ template <class Index>
 }
 
 /// offer() for the points [i, end).
+template <class Index, class Neighbors>
+inline void offer_one_by_one(const SortedPoints<Index>& points, std::size_t i, std::size_t end, const Point& center,
+                             float radius_squared, Neighbors& out) noexcept {
+  const float* const x = points.xyz;
+  const std::size_t n = points.size;
+  for (; i < end; ++i) offer(out, {x[i], x[n + i], x[2 * n + i]}, points.order[i], center, radius_squared);
+}
+
+template <class Index, class Neighbors>
+inline void offer_run(const SortedPoints<Index>& points, std::size_t i, std::size_t end, const Point& center,
+                      float radius_squared, Neighbors& out) noexcept {
+  offer_one_by_one(points, i, end, center, radius_squared, out);
+}
+
 template <class Index>
 inline void offer_run(const SortedPoints<Index>& points, std::size_t i, std::size_t end, const Point& center,
                       float radius_squared, Neighborhood& out) noexcept {
@@ -43,7 +57,7 @@ inline void offer_run(const SortedPoints<Index>& points, std::size_t i, std::siz
   // Whole registers are read up to the end of the points, and written up to the capacity.
   const bool roomy = simd::lanes > 1 && end + simd::lanes <= n && out.capacity - out.size >= end - i + simd::lanes;
   if (!roomy) {
-    for (; i < end; ++i) offer(out, {x[i], x[n + i], x[2 * n + i]}, order[i], center, radius_squared);
+    offer_one_by_one(points, i, end, center, radius_squared, out);
     return;
   }
   const Neighborhood to = out;

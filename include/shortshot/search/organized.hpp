@@ -51,7 +51,8 @@ class OrganizedSearch {
 
   [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_.size; }
 
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& out) const noexcept {
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     clear(out);
     if (status() != Status::ok) return status();
     const float reach = rounded(radius.value * 1.000001f);  // covers the rounding of d2
