@@ -13,6 +13,7 @@
 #include "config.hpp"
 #include "descriptor.hpp"
 #include "locate.hpp"
+#include "shares.hpp"
 #include "simd.hpp"
 #include "unroll.hpp"
 #include "voting.hpp"
@@ -21,100 +22,15 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-template <class Voting, class Part>
-inline constexpr int votes_of = Voting::template votes<Part::axis_count>;
-
-/// The signal of Occupancy: none.
-struct NoSignal {
-  template <class Colors>
-  explicit NoSignal(const Colors&) noexcept {}
-};
-
-/// The signal of NormalCosine, 0..1.
-struct NormalSignal {
-  template <class Colors>
-  explicit NormalSignal(const Colors&) noexcept {}
-  template <class Chunk>
-  [[nodiscard]] simd::F32 operator()(const Chunk& chunk, std::uint32_t i) const noexcept {
-    return simd::load(chunk.coordinate(3, i)) * simd::all(0.5f) + simd::all(0.5f);
+/// Into a chunk: how far its neighbours' colours are from the key point's, 0..1.
+template <class Chunk, class Colors>
+inline void measure_colors(const Colors& source, Chunk& chunk) noexcept {
+  Collector<const Colors> colors = source;
+  const LabLanes reference = in_all_lanes(colors.reference);
+  float* const distances = chunk.rows + Chunk::color_row * std::size_t{Chunk::room};
+  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
+    simd::store(distances + i, color_distances(colors_at(colors, chunk.index + i), reference));
   }
-};
-
-/// The signal of ColorDistance: how far neighbours' colours are from the key point's.
-template <class Colors>
-struct ColorSignal {
-  std::conditional_t<simd::lanes == 1, const Colors&, Colors> colors;  // in lanes a copy, which no store can change
-  LabLanes reference;
-  explicit ColorSignal(const Colors& source) noexcept : colors(source), reference(in_all_lanes(source.reference)) {}
-  template <class Chunk>
-  [[nodiscard]] simd::F32 operator()(const Chunk& chunk, std::uint32_t i) const noexcept {
-    return color_distances(colors_at(colors, chunk.index + i), reference);
-  }
-};
-
-template <class Part, class Colors>
-using SignalOf = std::conditional_t<Part::Signal::needs_colors, ColorSignal<Colors>,
-                                    std::conditional_t<Part::Signal::needs_normals, NormalSignal, NoSignal>>;
-
-/// The share along axis `k` of a part's grid of what lies at a chunk's coordinate `k`.
-template <class Voting, class Part>
-[[nodiscard]] SHORTSHOT_INLINE Share share_along_axis(const Axis& axis, int k, simd::F32 coordinate,
-                                                      const VoteUnit& unit) noexcept {
-  using Cells = typename Part::Cells;
-  const simd::F32 along = k == 1 ? Cells::elevation(coordinate) : coordinate;
-  const simd::F32 cells = k == 0 ? Part::Scale::position(axis, along) : along * simd::all(axis.length());
-  simd::I32 position = Cells::position(cells);
-  if (Cells::has_poles && k == 2) position = invert(is_negative(bits_of(coordinate)), position);  // 0 to -1: nowhere
-  return Voting::split(axis, position, unit);
-}
-
-/// One register of a chunk's neighbours in the frame's spherical coordinates.
-struct Coordinates {
-  simd::F32 of[3];
-};
-
-template <class Chunk>
-[[nodiscard]] SHORTSHOT_INLINE Coordinates coordinates_at(const Chunk& chunk, std::uint32_t i) noexcept {
-  return {{simd::load(chunk.coordinate(0, i)), simd::load(chunk.coordinate(1, i)), simd::load(chunk.coordinate(2, i))}};
-}
-
-/// The shares of a point along all axes of a part, those of the grid first.
-struct PointShares {
-  Share axes[4];
-};
-
-/// The shares in a part's grid if every cell of it had `Values` values.
-template <class Voting, class Part, int Values>
-[[nodiscard]] SHORTSHOT_INLINE PointShares grid_shares(const Coordinates& at, const VoteUnit& unit) noexcept {
-  PointShares shares;
-  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
-    shares.axes[k] = share_along_axis<Voting, Part>(Part::template axes<Values>[k], k, at.of[k], unit);
-  });
-  return shares;
-}
-
-/// The same in a grid whose cells have `Factor` times as many values; the cell of all axes is the first one's.
-template <int Factor>
-[[nodiscard]] SHORTSHOT_INLINE PointShares widened(const PointShares& shares) noexcept {
-  PointShares wide = shares;
-  wide.axes[0].cell = times((shares.axes[0].cell + shares.axes[1].cell) + shares.axes[2].cell, Factor);
-  wide.axes[1].cell = wide.axes[2].cell = simd::all_int(0);
-  wide.axes[0].step = times(shares.axes[0].step, Factor);
-  wide.axes[1].step = times(shares.axes[1].step, Factor);
-  wide.axes[2].step = times(shares.axes[2].step, Factor);
-  return wide;
-}
-
-/// All votes for a part of one register of a chunk's neighbours, from `i` on, whose shares in the grid are known.
-template <class Voting, class Part, class Signal, class Chunk>
-[[nodiscard]] SHORTSHOT_INLINE Votes<votes_of<Voting, Part>> votes_at(const Chunk& chunk, std::uint32_t i,
-                                                                      PointShares&& shares, const Signal& signal,
-                                                                      const VoteUnit& unit) noexcept {
-  if constexpr (Part::has_histogram) {
-    constexpr const Axis& axis = Part::template axes<Part::values>[3];
-    shares.axes[3] = Voting::split(axis, Part::Cells::bin_position(axis, signal(chunk, i)), unit);
-  }
-  return Voting::template combine<Part::axis_count>(Part::template axes<Part::values>, shares.axes, unit);
 }
 
 /// Is vote `k` of a neighbour, to its partner along an axis of the grid, of the same weight for all parts on the grid?
@@ -132,26 +48,33 @@ inline void add_bits(float* value, std::int32_t weight) noexcept {
   std::memcpy(value, &sum, sizeof sum);
 }
 
+/// One vote of the only lane.
+inline void add_vote(float* values, simd::I32 index, simd::I32 weight) noexcept {
+  std::int32_t place = 0;
+  std::int32_t units = 0;
+  simd::store(&place, index);
+  simd::store(&units, weight);
+  add_bits(values + place, units);
+}
+
 /// The votes of a chunk for the part that begins at value `Offset` of the descriptor, lane-wise: `count` arrays of
 /// positions in the part, and as many of weights. Votes go through memory: taken out of registers lane by lane they
 /// would cost twice as much.
-template <class Voting, class PartType, int Offset, class Signal, std::uint32_t ChunkSize>
+template <class Voting, class PartType, int Offset, std::uint32_t ChunkSize>
 struct ChunkVotes {
   using Part = PartType;
   static constexpr int offset = Offset;
   static constexpr int count = votes_of<Voting, Part>;
-  Signal signal;
   std::int32_t index[count * ChunkSize];
   std::int32_t weight[count * ChunkSize];
 
-  template <class Colors>
-  explicit ChunkVotes(const Colors& colors) noexcept : signal(colors) {}
+  ChunkVotes() noexcept {}  // leaves the arrays as they are
 
   /// The votes of one register of neighbours, from `i` on. Weights that the `First` part on the grid has as well are
   /// kept there only.
   template <bool First, class Chunk>
   SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, PointShares&& shares, const VoteUnit& unit) noexcept {
-    const Votes<count> votes = votes_at<Voting, Part>(chunk, i, std::move(shares), signal, unit);
+    const Votes<count> votes = votes_at<Voting, Part>(chunk, i, std::move(shares), unit);
     unroll<count>([&](auto k) {
       simd::store(index + i + k * ChunkSize, votes.index[k]);
       if constexpr (First || !is_shared<Voting>(k)) simd::store(weight + i + k * ChunkSize, votes.weight[k]);
@@ -208,7 +131,8 @@ inline void scatter(std::uint32_t size, float* out, const Votes&... votes) noexc
 /// The greatest common divisor.
 constexpr int common_divisor(int a, int b) noexcept { return b == 0 ? a : common_divisor(b, a % b); }
 
-/// One chunk into parts that have one grid: points are shared among its cells once for all of them.
+/// One chunk into parts that have one grid: points are shared among its cells once for all of them. (`unit` is a copy,
+/// which no store can change.)
 template <class Voting, class Chunk, class First, class... Others>
 inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& first, Others&&... others) noexcept {
   using Part = typename std::decay_t<First>::Part;
@@ -231,46 +155,61 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& fi
 }
 
 /// The votes of neighbour `i` of a chunk for one part, added at once: there is one lane only.
-template <class Voting, class Part, class Signal, class Chunk>
-SHORTSHOT_INLINE void add_point(const Chunk& chunk, std::uint32_t i, const Coordinates& at, const Signal& signal,
-                                const VoteUnit& unit, float* values) noexcept {
+template <class Voting, class Part, class Chunk>
+SHORTSHOT_INLINE void add_point(const Chunk& chunk, std::uint32_t i, const Coordinates& at, const VoteUnit& unit,
+                                float* values) noexcept {
   constexpr int count = votes_of<Voting, Part>;
-  const Votes<count> votes =
-      votes_at<Voting, Part>(chunk, i, grid_shares<Voting, Part, Part::values>(at, unit), signal, unit);
-  each<count>([&](auto k) {
-    std::int32_t place = 0;
-    std::int32_t weight = 0;
-    simd::store(&place, votes.index[k]);
-    simd::store(&weight, votes.weight[k]);
-    add_bits(values + place, weight);
-  });
+  const Votes<count> votes = votes_at<Voting, Part>(chunk, i, grid_shares<Voting, Part, Part::values>(at, unit), unit);
+  each<count>([&](auto k) SHORTSHOT_INLINE_LAMBDA { add_vote(values, votes.index[k], votes.weight[k]); });
 }
 
 /// All parts in one loop: what they have in common is worked out once.
-template <class Voting, class... Parts, std::size_t... I, class Chunk, class... Signals>
-inline void add_points(Descriptor<Voting, Parts...>, std::index_sequence<I...>, const Chunk& chunk,
-                       const VoteUnit& unit, float* out, const Signals&... signals) noexcept {
+template <class Voting, class... Parts, std::size_t... I, class Chunk>
+[[gnu::noinline]] inline void add_points(Descriptor<Voting, Parts...>, std::index_sequence<I...>, const Chunk& chunk,
+                                         const VoteUnit& unit, float* out) noexcept {
   using D = Descriptor<Voting, Parts...>;
   const std::uint32_t size = chunk.size;
   for (std::uint32_t i = 0; i < size; ++i) {
     const Coordinates at = coordinates_at(chunk, i);
-    (add_point<Voting, Parts>(chunk, i, at, signals, unit, out + D::offset(I)), ...);
+    (add_point<Voting, Parts>(chunk, i, at, unit, out + D::offset(I)), ...);
   }
 }
 
-template <class Voting, class... Parts, std::size_t... I, class Chunk, class Colors>
+/// The same of one part where code shall be small: this function for all parts with these rules. `signal` is the row of
+/// the part's signal, or 0 if it has no histogram.
+template <class Voting, class Cells, class Scale, class Chunk>
+[[gnu::noinline]] inline void add_points_of_part(const Chunk& chunk, const Axis (&axes)[4], int signal,
+                                                 const VoteUnit& unit, float* values) noexcept {
+  for (std::uint32_t i = 0; i < chunk.size; ++i) {
+    Share shares[4];
+    // Without a histogram all of a fourth axis' share is its partner's, which does not exist.
+    shares[3] = {simd::all_int(0), simd::all_int(0), simd::all_int(2 * unit.one)};
+    for (int k = 0; k < (signal == 0 ? 3 : 4); ++k) {
+      const simd::F32 coordinate = simd::load(chunk.row(k == 3 ? signal : k, i));
+      shares[k] = share_along_axis<Voting, Cells, Scale>(axes[k], k, coordinate, unit);
+    }
+    const auto votes = Voting::template combine<4>(axes, shares, unit);
+    for (int k = 0; k < Voting::template votes<4>; ++k) add_vote(values, votes.index[k], votes.weight[k]);
+  }
+}
+
+template <class Voting, class... Parts, std::size_t... I, class Chunk>
 inline void accumulate_all(Descriptor<Voting, Parts...> descriptor, std::index_sequence<I...> parts, const Chunk& chunk,
-                           const Colors& colors, const VoteUnit& unit, float* out) noexcept {
+                           const VoteUnit& unit, float* out) noexcept {
   using D = Descriptor<Voting, Parts...>;
-  if constexpr (simd::lanes == 1) {
-    add_points(descriptor, parts, chunk, unit, out, SignalOf<Parts, Colors>(colors)...);
+  if constexpr (simd::lanes == 1 && small_code) {
+    (add_points_of_part<Voting, typename Parts::Cells, typename Parts::Scale>(
+         chunk, Parts::template axes<Parts::values>, Parts::has_histogram ? signal_row<Parts, Chunk> : 0, unit,
+         out + D::offset(I)),
+     ...);
+  } else if constexpr (simd::lanes == 1) {
+    add_points(descriptor, parts, chunk, unit, out);
   } else if constexpr (HaveOneGrid<Parts...>::value) {
-    accumulate<Voting>(chunk, unit, out,
-                       ChunkVotes<Voting, Parts, D::offset(I), SignalOf<Parts, Colors>, Chunk::room>(colors)...);
+    accumulate<Voting>(chunk, unit, out, ChunkVotes<Voting, Parts, D::offset(I), Chunk::room>()...);
   } else {
     const auto accumulate_part = [&](auto part, float* values) {
       using Part = decltype(part);
-      accumulate<Voting>(chunk, unit, values, ChunkVotes<Voting, Part, 0, SignalOf<Part, Colors>, Chunk::room>(colors));
+      accumulate<Voting>(chunk, unit, values, ChunkVotes<Voting, Part, 0, Chunk::room>());
     };
     (accumulate_part(Parts{}, out + D::offset(I)), ...);
   }
@@ -280,11 +219,11 @@ inline void accumulate_all(Descriptor<Voting, Parts...> descriptor, std::index_s
 template <std::uint32_t ChunkSize, class Voting, class... Parts>
 constexpr std::size_t scratch_bytes(Descriptor<Voting, Parts...>) noexcept {
   using D = Descriptor<Voting, Parts...>;
-  constexpr std::size_t votes[] = {sizeof(ChunkVotes<Voting, Parts, 0, NoSignal, ChunkSize>)...};
+  constexpr std::size_t votes[] = {sizeof(ChunkVotes<Voting, Parts, 0, ChunkSize>)...};
   std::size_t most = 0;
   for (const std::size_t bytes : votes)
     most = HaveOneGrid<Parts...>::value ? most + bytes : most < bytes ? bytes : most;
-  return sizeof(Chunk<D::needs_normals, ChunkSize>) + (simd::lanes == 1 ? 0 : most);
+  return sizeof(Chunk<D::needs_normals, D::needs_colors, ChunkSize>) + (simd::lanes == 1 ? 0 : most);
 }
 
 }  // namespace detail

@@ -38,10 +38,8 @@ struct PublishedCells {
   [[nodiscard]] static simd::F32 elevation(simd::F32 from_top) noexcept { return from_top; }
   /// From numbers of cells, times the axis' unit, to fixed-point positions on grid axes.
   [[nodiscard]] static simd::I32 position(simd::F32 scaled) noexcept { return truncate_to_int(scaled); }
-  /// From a signal, 0..1, to the position on the histogram's axis.
-  [[nodiscard]] static simd::I32 bin_position(const Axis& axis, simd::F32 signal) noexcept {
-    return truncate_to_int(signal * simd::all(axis.length()));
-  }
+  /// Does a signal, 0..1, have its place on the histogram's axis as a coordinate has on an axis of the grid?
+  static constexpr bool bins_are_cells = true;
 };
 
 /// The cells of SHOT and CSHOT in PCL 1.13: elevation from the frame's -z up, a border belongs to the cell below it (a
@@ -61,9 +59,11 @@ struct ShotCells {
   [[nodiscard]] static simd::I32 position(simd::F32 scaled) noexcept {
     return truncate_to_int(simd::max(scaled, simd::all(1.0f))) - simd::all_int(1);
   }
+  static constexpr bool bins_are_cells = false;
+  /// From a signal to its place on the histogram's axis.
   [[nodiscard]] static simd::I32 bin_position(const Axis& axis, simd::F32 signal) noexcept {
     const std::int32_t middle = std::int32_t{1} << (axis.bits - 1);
-    return truncate_to_int(signal * simd::all(axis.length() - axis.one())) + simd::all_int(middle);
+    return truncate_to_int(signal * simd::all(static_cast<float>(axis.cells - 1) * axis.one())) + simd::all_int(middle);
   }
 };
 

@@ -200,16 +200,23 @@ template <class Function>
   }
 }
 
+/// The first point from index `i` on with three finite coordinates; cloud.size if there is none.
+[[nodiscard]] inline std::size_t next_valid(const CloudView& cloud, std::size_t i, Point& p) noexcept {
+  for (; i < cloud.size; ++i) {
+    p = point(cloud, i);
+    if (is_finite(p)) break;
+  }
+  return i;
+}
+
 /// Calls f(index, point) for each point with three finite coordinates, in order.
 template <class Function>
 void for_each_valid(const CloudView& cloud, Function f) {
-  for (std::size_t i = 0; i < cloud.size; ++i) {
-    const Point p = point(cloud, i);
-    if (is_finite(p)) f(i, p);
-  }
+  Point p;
+  for (std::size_t i = next_valid(cloud, 0, p); i < cloud.size; i = next_valid(cloud, i + 1, p)) f(i, p);
 }
 
-[[nodiscard]] inline Rgb read(const ColorChannel& channel, std::size_t index) noexcept {
+[[nodiscard, gnu::always_inline]] inline Rgb read(const ColorChannel& channel, std::size_t index) noexcept {
   const std::size_t offset = index * channel.stride_bytes;
   return {channel.r[offset], channel.g[offset], channel.b[offset]};
 }

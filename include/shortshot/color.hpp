@@ -2,11 +2,9 @@
 //
 // Both existing codes quantise the CIE ratios to 1/4000 and look their cube root up in a table of 4000 entries; here
 // the same quantised ratio goes through a computed root, so that 16 KB of tables are not needed and pure white, which
-// reads past the end of both tables, is defined (in PclLab, too: as what PCL was seen to read there). sRGB
-// linearisation keeps its 1 KB table, built at compile time.
+// reads past the end of both tables, is defined (in PclLab, too: as what PCL was seen to read there).
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -15,6 +13,7 @@
 #include "root.hpp"
 #include "rounded.hpp"
 #include "simd.hpp"
+#include "srgb.hpp"
 #include "unroll.hpp"
 
 namespace shortshot {
@@ -25,54 +24,6 @@ struct Lab {
 };
 
 inline namespace SHORTSHOT_ISA {
-namespace detail {
-
-/// n-th root by Newton's iteration, for tables that are built while compiling; never called at run time.
-constexpr double nth_root(double value, int n) noexcept {
-  double root = 1.0;
-  for (int step = 0; step < 100; ++step) {
-    double power = 1.0;
-    for (int k = 1; k < n; ++k) power *= root;
-    const double next = ((n - 1) * root + value / power) / n;
-    if (next == root) break;
-    root = next;
-  }
-  return root;
-}
-
-/// Natural logarithm of 0.05 <= value <= 1 to 1e-6, likewise only while compiling: ln v = 2 artanh((v - 1) / (v + 1)).
-constexpr double log_series(double value) noexcept {
-  const double s = (value - 1.0) / (value + 1.0);
-  double power = s;
-  double sum = 0.0;
-  for (int k = 1; k < 120; k += 2) {
-    sum += power / k;
-    power *= s * s;
-  }
-  return 2.0 * sum;
-}
-
-/// ((c + 0.055) / 1.055)^2.4 with the existing codes' own roundings, because one bit more or less would move some
-/// ratios across a step of their tables: the base is a float, and so is the exponent.
-constexpr float srgb_power(float c) noexcept {
-  const double base = static_cast<double>((c + 0.055f) / 1.055f);
-  const double excess = static_cast<double>(2.4f) - 2.4;
-  return static_cast<float>(base * base * nth_root(base * base, 5) * (1.0 + excess * log_series(base)));
-}
-
-constexpr std::array<float, 256> make_srgb_to_linear() noexcept {
-  std::array<float, 256> table{};
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    const float c = static_cast<float>(i) / 255.0f;
-    table[i] = c > 0.04045f ? srgb_power(c) : c / 12.92f;
-  }
-  return table;
-}
-
-inline constexpr std::array<float, 256> srgb_to_linear = make_srgb_to_linear();
-
-}  // namespace detail
-
 /// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
 struct PublishedLab {
   static constexpr bool leaves_gamut = false;  ///< are there sRGB colours beyond -120..120 in a or b?
@@ -104,8 +55,8 @@ struct LinearRgb {
   float of[3];
 };
 
-[[nodiscard]] constexpr LinearRgb to_linear(Rgb rgb) noexcept {
-  return {{srgb_to_linear[rgb.r], srgb_to_linear[rgb.g], srgb_to_linear[rgb.b]}};
+[[nodiscard]] constexpr LinearRgb to_linear(const Rgb& rgb) noexcept {
+  return {{linear_of_srgb(rgb.r), linear_of_srgb(rgb.g), linear_of_srgb(rgb.b)}};
 }
 
 /// Linear RGB to CIE XYZ, and the white point.
@@ -137,16 +88,18 @@ template <class Rule>
 /// CIELAB of a colour; root(step) is the root of a ratio, computed or from a table of them. Both existing codes clamp a
 /// and b to -120..120 (and L to 100), which is beyond what sRGB colours have but for PclLab's white.
 template <class Rule, class Root>
-[[nodiscard]] inline Lab lab_by(const Root& root, Rgb rgb) noexcept {
+inline void lab_by(const Root& root, const Rgb& rgb, Lab& lab) noexcept {
   const LinearRgb linear = to_linear(rgb);
   int steps[3];
   float f[3];
   each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { steps[k] = ratio_step(k, linear); });
   each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { f[k] = root(steps[k]); });
-  const Lab lab{rounded(116.0f * f[1]) - 16.0f, rounded(500.0f * (f[0] - f[1])), rounded(200.0f * (f[1] - f[2]))};
-  if constexpr (!Rule::leaves_gamut) return lab;
-  const auto clamped = [](float value) { return value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
-  return {lab.L, clamped(lab.a), clamped(lab.b)};
+  lab = {rounded(116.0f * f[1]) - 16.0f, rounded(500.0f * (f[0] - f[1])), rounded(200.0f * (f[1] - f[2]))};
+  if constexpr (Rule::leaves_gamut) {
+    const auto clamp = [](float& value) { value = value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
+    clamp(lab.a);
+    clamp(lab.b);
+  }
 }
 
 }  // namespace detail
@@ -155,8 +108,10 @@ template <class Rule, class Root>
 /// PCL 1.13 compute; within 1e-4 of either in L, a and b. No allocation, reentrant. LabTable (lab_table.hpp) gives the
 /// same bits several times faster, for 16 KB.
 template <class Rule>
-[[nodiscard]] inline Lab to_lab(Rgb rgb) noexcept {
-  return detail::lab_by<Rule>([](int step) { return detail::root_of_step<Rule>(step); }, rgb);
+[[nodiscard]] inline Lab to_lab(const Rgb& rgb) noexcept {
+  Lab lab;
+  detail::lab_by<Rule>([](int step) { return detail::root_of_step<Rule>(step); }, rgb, lab);
+  return lab;
 }
 
 /// Lanes of CIELAB colours.

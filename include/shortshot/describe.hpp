@@ -1,8 +1,8 @@
 // shortshot/describe.hpp: the kernel. One gathered neighbourhood and a frame in, one descriptor out.
 //
 // Neighbours go through in chunks, each chunk in passes over small arrays: locate (local spherical coordinates,
-// locate.hpp), then for each part: vote and scatter (accumulate.hpp). Votes are integers, and so are their sums
-// (fixed_point.hpp).
+// locate.hpp), the distances of colours, and then for each part shares among cells (shares.hpp), votes and their
+// addition (accumulate.hpp). Votes are integers, and so are their sums (fixed_point.hpp).
 #pragma once
 
 #include <cstdint>
@@ -57,31 +57,40 @@ namespace detail {
     s[i % 8] += rounded(values[i] * values[i]);
   }
 
-  const float squared_norm = ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
-  if (!(squared_norm > 0.0f)) return Status::too_few_neighbors;
-  const float inverse = 1.0f / simd::root(squared_norm);
+  for (int count = 4; count > 0; count /= 2) {  // neighbours first
+    for (int k = 0; k < count; ++k) s[k] = s[2 * k] + s[2 * k + 1];
+  }
+  if (!(s[0] > 0.0f)) return Status::too_few_neighbors;
+  const float inverse = 1.0f / simd::root(s[0]);
   for (int i = 0; i < whole; i += lanes) simd::store(values + i, simd::load(values + i) * simd::all(inverse));
   for (int i = whole; i < size; ++i) values[i] *= inverse;
   return Status::ok;
 }
 
-/// describe() for what was checked before; `out` is all zeros.
+/// Do as many neighbours lie within a radius, the key point and its copies included?
+template <class Neighbors>
+[[nodiscard]] inline bool has_within(const Neighbors& n, Radius radius, std::uint32_t count) noexcept {
+  for (std::uint32_t i = 0; i < n.size; ++i) {
+    if (neighbor_at(n, i).d2 < radius.squared && --count == 0) return true;
+  }
+  return false;
+}
+
+/// describe() for what was checked before; `out` is all zeros. (Not inlined: its chunk need not be on the stack while
+/// the frame is estimated.)
 template <class D, std::uint32_t ChunkSize, class Neighbors, class Colors, class Normals>
-[[nodiscard]] inline Status describe_checked(const Neighbors& n, const Colors& colors, const Normals& normals,
-                                             const Frame& frame, Radius radius, float* out) noexcept {
+[[nodiscard, gnu::noinline]] inline Status describe_checked(const Neighbors& n, const Colors& colors,
+                                                            const Normals& normals, const Frame& frame, Radius radius,
+                                                            float* out) noexcept {
+  constexpr std::uint32_t fewest = D::Cells::min_neighbors;
+  if (fewest > 0 && !has_within(n, radius, fewest)) return Status::too_few_neighbors;
   const VoteUnit unit = vote_unit(n.size, D::position_bits, D::Voting::weight_bits);
-  Chunk<D::needs_normals, ChunkSize> chunk;
-  std::uint32_t described = 0;
+  Chunk<D::needs_normals, D::needs_colors, ChunkSize> chunk;
   for (std::uint32_t i = 0; i * ChunkSize < n.size; ++i) {
     locate<typename D::Cells, (D::shell_borders > 1)>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
                                                       D::shell_borders, normals, chunk);
-    accumulate_all(D{}, std::make_index_sequence<D::parts>{}, chunk, colors, unit, out);
-    described += chunk.size;
-  }
-  constexpr std::uint32_t fewest = D::Cells::min_neighbors;
-  if (fewest > 0 && described < fewest && count_within(n, radius) < fewest) {
-    std::memset(out, 0, D::size_bytes);
-    return Status::too_few_neighbors;
+    if constexpr (D::needs_colors) measure_colors(colors, chunk);
+    accumulate_all(D{}, std::make_index_sequence<D::parts>{}, chunk, unit, out);
   }
   return normalize(out, D::size);
 }
@@ -110,8 +119,8 @@ inline constexpr std::size_t chunk_bytes = detail::scratch_bytes<ChunkSize>(D{})
 /// SHOT and CSHOT: PCL 1.13's SHOTEstimation and SHOTColorEstimation. The rules are in cells.hpp and voting.hpp.
 /// Statuses: bad_radius, bad_frame, missing_colors, missing_normals, too_many_neighbors (over 2^24), too_few_neighbors
 /// (none to describe; for SHOT and CSHOT also fewer than five, the key point and its copies included); `out` is all
-/// zeros then, and never NaN. No allocation; reentrant; chunk_bytes<D, ChunkSize> of stack (with lanes 5 KB for SCSH, 7
-/// KB for CSHOT; without 272 bytes for SCSH), and half a kilobyte more. The result depends neither on the order of the
+/// zeros then, and never NaN. No allocation; reentrant; chunk_bytes<D, ChunkSize> of stack and half a kilobyte
+/// more. The result depends neither on the order of the
 /// neighbours nor on ChunkSize: what is done for a neighbour depends on no other, and sums are integers.
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors, class Colors, class Normals>
 [[nodiscard]] inline Status describe(const Neighbors& n, const Colors& colors, const Normals& normals,

@@ -73,7 +73,7 @@ template <class D>
   }
 }
 
-/// Frame and kernel; for `colors` see describe(). The arguments were checked before.
+/// Frame and kernel; for `colors` see describe(). The other arguments were checked before.
 template <class D, std::uint32_t ChunkSize, class Neighbors, class Colors>
 [[nodiscard]] inline Status describe_gathered(const CloudView& cloud, const Neighbors& n, const Colors& colors,
                                               const Point& center, const Support& support, Frame& frame,
@@ -81,7 +81,8 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Colors>
   const Point* eye = support.viewpoint;
   const float towards[3] = {eye ? eye->x - center.x : 0.0f, eye ? eye->y - center.y : 0.0f,
                             eye ? eye->z - center.z : 0.0f};
-  const Status status = estimate_frame(n, support.frame_radius, frame, towards);  // all zeros: by vote
+  if (!math::is_finite(towards)) return Status::bad_viewpoint;  // so far away that the difference overflows
+  const Status status = frame_of(n, support.frame_radius, towards, frame);
   if (status != Status::ok) return status;
   return describe_checked<D, ChunkSize>(n, colors, normals_of<D>(cloud), frame, support.radius, out);
 }
@@ -101,12 +102,15 @@ template <class D, class Color>
   }
 }
 
-/// Key points of describe_at(), by index or as they are.
+/// Key points of describe_at(), by index or as they are. Descriptors without colour need none of the key point's.
+template <class D>
 [[nodiscard]] inline Status find_key(const CloudView& cloud, std::size_t index, KeyPoint& key) noexcept {
   if (index >= cloud.size) return Status::bad_keypoint;
-  key = keypoint(cloud, index);
+  key.position = point(cloud, index);
+  if constexpr (D::needs_colors) key.color = color(cloud, index);
   return Status::ok;
 }
+template <class D>
 [[nodiscard]] inline Status find_key(const CloudView&, const KeyPoint& given, KeyPoint& key) noexcept {
   key = given;
   return Status::ok;
@@ -120,7 +124,11 @@ template <class D, class Search, class Place, class Memory, class Color, class F
   std::memset(out, 0, D::size_bytes);
   KeyPoint key;
   Status status = check<D>(cloud, search, support);
-  if (status == Status::ok) status = find_key(cloud, place, key);
+  if constexpr (std::is_integral<Place>::value) {
+    if (status == Status::ok) status = find_key<D>(cloud, static_cast<std::size_t>(place), key);
+  } else {
+    if (status == Status::ok) status = find_key<D>(cloud, place, key);
+  }
   if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
   if (status != Status::ok) return status;
   const auto colors = colors_of<D>(cloud, key.color, converted);
@@ -146,7 +154,7 @@ template <class D, class Search, class Place, class Memory, class Color, class F
 /// missing_colors, missing_normals, bad_keypoint (the index), invalid_keypoint, too_many_neighbors (the workspace is
 /// too small: Neighborhood::found of a gather() says what it takes), too_few_neighbors, ambiguous_frame; and what the
 /// search's build() returned, if not ok. No allocation; reentrant, one workspace per thread.
-template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place, class Memory,
+template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place = KeyPoint, class Memory,
           class Color = detail::ConvertEach>
 [[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
                                         const Support& support, Memory& workspace, float* out,
@@ -160,7 +168,7 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, c
 }
 
 /// The same in a frame that the caller knows; bad_frame if it is not orthonormal.
-template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place, class Memory,
+template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place = KeyPoint, class Memory,
           class Color = detail::ConvertEach>
 [[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
                                         const Frame& frame, Radius radius, Memory& workspace, float* out,

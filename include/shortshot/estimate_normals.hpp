@@ -35,15 +35,16 @@ class CandidateChunk {
   void fill(const CloudView& cloud, const Neighborhood& candidates, std::uint32_t first,
             const MomentScale& by) noexcept {
     for (size_ = 0; size_ < most && first + size_ < candidates.size; size_ += simd::lanes) {
+      const NeighborLanes v = load_neighbors(candidates, first + size_);
       std::uint32_t index[simd::lanes];
-      simd::store(index, load_indices(candidates, first + size_));
+      simd::store(index, v.index);
       const PointLanes p = read_lanes(cloud.points, [&](std::size_t lane) { return std::size_t{index[lane]}; });
       const simd::Mask exists = simd::first(candidates.size - first - size_);
       // What fills up the last register is nobody's neighbour.
       simd::store(x_ + size_, select(exists, p.x, simd::all(std::numeric_limits<float>::quiet_NaN())));
       simd::store(y_ + size_, p.y);
       simd::store(z_ + size_, p.z);
-      const Terms each = terms_of(load_offsets(candidates, first + size_), by);
+      const Terms each = terms_of(v, by);
       unroll<Terms::kinds>([&](auto k) { simd::store(terms_[k] + size_, each.of[k]); });
     }
   }

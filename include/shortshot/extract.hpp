@@ -39,6 +39,7 @@ template <class D, class Color, class Search>
   const Status status = workspace.gather(search, key.position, gather_radius(support), n);
   out.neighbors[row] = n.found;
   if (status != Status::ok) return status;
+  if (n.size > max_neighbors) return Status::too_many_neighbors;
   float* values = out.values.data() + row * static_cast<std::size_t>(D::size);
   std::memset(values, 0, D::size_bytes);
   if constexpr (D::needs_colors) {

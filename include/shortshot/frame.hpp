@@ -48,7 +48,7 @@ namespace detail {
 
 /// Members, those who make a frame, lie strictly inside its radius and not at the key point itself: the key point and
 /// its copies move no sum, but must not be counted.
-[[nodiscard]] inline simd::Mask within(const Offsets& v, Radius radius) noexcept {
+[[nodiscard]] inline simd::Mask within(const NeighborLanes& v, Radius radius) noexcept {
   return v.d2 < simd::all(radius.squared);
 }
 
@@ -64,7 +64,7 @@ template <class Neighbors>
   simd::F32 farthest = zero;
   simd::I32 members{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
-    const Offsets v = load_offsets(n, i);
+    const NeighborLanes v = load_neighbors(n, i);
     simd::Mask member = within(v, radius);
     if (simd::lanes == 1 || any(zero >= v.d2)) {  // seldom: the key point, and whatever is so close that d2 is lost
       member = member & (simd::abs(v.dx) + simd::abs(v.dy) + simd::abs(v.dz) > zero);
@@ -108,7 +108,7 @@ template <class Neighbors>
   const F32 inverse = all(1.0f / radius.value);
   simd::I32 sums[6] = {};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
-    const Offsets v = load_offsets(n, i);
+    const NeighborLanes v = load_neighbors(n, i);
     const F32 at[3] = {v.dx * unit, v.dy * unit, v.dz * unit};
     const F32 w = keep(within(v, radius), (all(1.0f) - simd::sqrt(v.d2) * inverse) * scale);
     each<3>([&](auto row) SHORTSHOT_INLINE_LAMBDA {
@@ -140,7 +140,7 @@ template <class Neighbors>
   const F32 z_axis[3] = {all(z[0]), all(z[1]), all(z[2])};
   simd::I32 against_x{}, against_z{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
-    const Offsets v = load_offsets(n, i);
+    const NeighborLanes v = load_neighbors(n, i);
     const simd::Mask near = within(v, radius);
     const F32 along_x = (v.dx * x_axis[0] + v.dz * x_axis[2]) + v.dy * x_axis[1];
     const F32 along_z = (v.dx * z_axis[0] + v.dz * z_axis[2]) + v.dy * z_axis[1];
@@ -160,7 +160,7 @@ template <class Neighbors>
   int votes = 0;
   for (std::uint32_t i = 0; i < n.size; ++i) {
     if (place_at(n, i) - first >= end - first) continue;
-    const Offset v = offset_at(n, i);
+    const Neighbor v = neighbor_at(n, i);
     votes += dot({v.dx, v.dy, v.dz}, axis) > 0.0f ? 1 : 0;
   }
   return votes >= 3;
@@ -172,6 +172,35 @@ inline void orient_by_vote(const Neighbors& n, int members, int against, float (
   const int lead = 2 * against - members;
   if (lead == 0 ? middle_votes_for(n, members, axis) : lead < 0) return;
   for (float& component : axis) component = 0.0f - component;
+}
+
+/// estimate_frame() for what was checked before. `view` is the vector to the viewpoint; zeros: there is none.
+template <class Neighbors>
+[[nodiscard]] inline Status frame_of(const Neighbors& n, Radius radius, const float (&view)[3], Frame& frame) noexcept {
+  const Census census = take_census(n, radius);
+  if (census.members < min_frame_neighbors) return Status::too_few_neighbors;
+
+  const EigenLanes eigen = decompose(weighted_scatter(n, radius, census.farthest_d2));
+  // What float can tell apart, and what the rounding of the members to integers may have moved.
+  const simd::F32 resolution =
+      simd::all(1e-6f) * eigen.value(2) + simd::all(rounded(0.5f * static_cast<float>(census.members)));
+  if (!any((eigen.value(2) - eigen.value(1) > resolution) & (eigen.value(1) - eigen.value(0) > resolution))) {
+    return Status::ambiguous_frame;
+  }
+
+  for (int k = 0; k < 3; ++k) {
+    frame.x[k] = simd::largest(eigen.vector(2, k));
+    frame.z[k] = simd::largest(eigen.vector(0, k));
+  }
+  AxisVotes against = count_votes_against(n, radius, frame.x, frame.z);
+  const float towards = dot(view, frame.z);
+  if (towards != 0.0f) against.z = towards < 0.0f ? census.members : 0;  // a viewpoint that tells outvotes all members
+  orient_by_vote(n, census.members, against.x, frame.x);
+  orient_by_vote(n, census.members, against.z, frame.z);
+  frame.y[0] = rounded(frame.z[1] * frame.x[2]) - rounded(frame.z[2] * frame.x[1]);
+  frame.y[1] = rounded(frame.z[2] * frame.x[0]) - rounded(frame.z[0] * frame.x[2]);
+  frame.y[2] = rounded(frame.z[0] * frame.x[1]) - rounded(frame.z[1] * frame.x[0]);
+  return Status::ok;
 }
 
 }  // namespace detail
@@ -195,31 +224,7 @@ template <class Neighbors>
   frame = Frame{};
   float view[3] = {};
   const Status usable = detail::check_estimate(n, radius, towards_viewpoint, view);
-  if (usable != Status::ok) return usable;
-  const detail::Census census = detail::take_census(n, radius);
-  if (census.members < min_frame_neighbors) return Status::too_few_neighbors;
-
-  const detail::EigenLanes eigen = detail::decompose(detail::weighted_scatter(n, radius, census.farthest_d2));
-  // What float can tell apart, and what the rounding of the members to integers may have moved.
-  const simd::F32 resolution =
-      simd::all(1e-6f) * eigen.value(2) + simd::all(rounded(0.5f * static_cast<float>(census.members)));
-  if (!any((eigen.value(2) - eigen.value(1) > resolution) & (eigen.value(1) - eigen.value(0) > resolution))) {
-    return Status::ambiguous_frame;
-  }
-
-  for (int k = 0; k < 3; ++k) {
-    frame.x[k] = simd::largest(eigen.vector(2, k));
-    frame.z[k] = simd::largest(eigen.vector(0, k));
-  }
-  detail::AxisVotes against = detail::count_votes_against(n, radius, frame.x, frame.z);
-  const float towards = dot(view, frame.z);
-  if (towards != 0.0f) against.z = towards < 0.0f ? census.members : 0;  // a viewpoint that tells outvotes all members
-  detail::orient_by_vote(n, census.members, against.x, frame.x);
-  detail::orient_by_vote(n, census.members, against.z, frame.z);
-  frame.y[0] = rounded(frame.z[1] * frame.x[2]) - rounded(frame.z[2] * frame.x[1]);
-  frame.y[1] = rounded(frame.z[2] * frame.x[0]) - rounded(frame.z[0] * frame.x[2]);
-  frame.y[2] = rounded(frame.z[0] * frame.x[1]) - rounded(frame.z[1] * frame.x[0]);
-  return Status::ok;
+  return usable == Status::ok ? detail::frame_of(n, radius, view, frame) : usable;
 }
 
 }  // namespace SHORTSHOT_ISA

@@ -27,14 +27,12 @@ struct SphericalGrid {
   static constexpr int cells = Radial * Elevation * Azimuth;
 };
 
-/// Shells of equal width: the published default. `u` is the distance over the support radius, in [0, 1].
+/// Shells of equal width: the published default.
 struct LinearRadius {
+  static constexpr bool is_linear = true;
   static constexpr BelowZero below_zero = BelowZero::never;
   /// All borders and middles of shells are multiples of 1 / borders.
   static constexpr int borders(int shells) noexcept { return 2 * shells; }
-  [[nodiscard]] static simd::F32 position(const Axis& shells, simd::F32 u) noexcept {
-    return u * simd::all(shells.length());
-  }
 };
 
 /// The published logarithmic shells: the innermost one reaches out to R * Numerator / Denominator, the others share
@@ -43,8 +41,10 @@ template <int Numerator = 1, int Denominator = 4>
 struct LogRadius {
   static_assert(0 < Numerator && 100LL * Numerator <= 99LL * Denominator,
                 "LogRadius<N, D> supports ratios 0 < N / D <= 0.99");
+  static constexpr bool is_linear = false;
   static constexpr BelowZero below_zero = BelowZero::first_cell;
   static constexpr int borders(int) noexcept { return 1; }  // in float's own rounding
+  /// Where `u`, the distance over the support radius, 0..1, lies along the axis.
   [[nodiscard]] static simd::F32 position(const Axis& shells, simd::F32 u) noexcept {
     const float shell = shells.one();
     const float log_of_ratio = math::log(static_cast<float>(Numerator) / static_cast<float>(Denominator));

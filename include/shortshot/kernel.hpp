@@ -6,6 +6,7 @@
 #include "binary.hpp"
 #include "describe_at.hpp"
 #include "normals.hpp"
+#include "quantize.hpp"
 #include "search/brute.hpp"
 #include "search/grid.hpp"
 #include "search/organized.hpp"

@@ -24,7 +24,9 @@ class LabTable {
   }
 
   [[nodiscard]] Lab operator()(Rgb color) const noexcept {
-    return detail::lab_by<Rule>([roots = roots_.data()](int step) { return roots[step]; }, color);
+    Lab lab;
+    detail::lab_by<Rule>([roots = roots_.data()](int step) { return roots[step]; }, color, lab);
+    return lab;
   }
 
  private:

@@ -4,34 +4,38 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <type_traits>
 
 #include "config.hpp"
 #include "frame.hpp"
 #include "math.hpp"
 #include "neighborhood.hpp"
 #include "simd.hpp"
+#include "unroll.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
 /// A chunk of neighbours in the frame's spherical coordinates. Only those that are described: passes need no masks.
-template <bool WithNormals, std::uint32_t Room>
+template <bool WithNormals, bool WithColors, std::uint32_t Room>
 struct Chunk {
   static_assert(Room >= simd::lanes && Room <= 1024 && Room % simd::lanes == 0,
                 "ChunkSize supports multiples of simd::lanes up to 1024: registers do not reach beyond its end");
-  static constexpr bool with_normals = WithNormals;
   static constexpr std::uint32_t room = Room;
+  static constexpr bool with_normals = WithNormals;
+  static constexpr int normal_row = 3;
+  static constexpr int color_row = WithNormals ? 4 : 3;
   std::uint32_t size;
-  std::uint32_t index[Room];                        ///< in the cloud
-  float coordinates[(WithNormals ? 4 : 3) * Room];  // one array, so that one register holds the place in all
+  std::uint32_t index[Room];  ///< in the cloud
+  float
+      rows[(WithColors ? color_row + 1 : color_row) * Room];  // one array, so that one register holds the place in all
 
-  /// From neighbour `i` on: coordinate 0, the distance over the radius, 0..1; 1, the angle from +z over pi, 0..1; 2,
-  /// the angle from -x, counter-clockwise, in turns, 0..1, or below 0 where a convention with poles has none; and 3,
-  /// the normal's component along z, -1..1.
-  [[nodiscard]] const float* coordinate(int k, std::uint32_t i) const noexcept {
-    return coordinates + i + static_cast<std::size_t>(k) * Room;
+  /// From neighbour `i` on, all 0..1: row 0, the distance over the radius; 1, the angle from +z over pi; 2, the angle
+  /// from -x, counter-clockwise, in turns, or below 0 where a convention with poles has none; and the signals of those
+  /// parts that have one.
+  [[nodiscard]] const float* row(int k, std::uint32_t i) const noexcept {
+    return rows + i + static_cast<std::size_t>(k) * Room;
   }
 };
 
@@ -56,22 +60,29 @@ struct Local {
   simd::F32 x, y, z;
 };
 
-/// An axis of a frame in all lanes.
-struct AxisLanes {
-  simd::F32 x, y, z;
-  explicit AxisLanes(const float (&axis)[3]) noexcept
-      : x(simd::all(axis[0])), y(simd::all(axis[1])), z(simd::all(axis[2])) {}
-  [[nodiscard]] simd::F32 along(const Offsets& v) const noexcept { return (v.dx * x + v.dz * z) + v.dy * y; }
-  [[nodiscard]] simd::F32 along(const PointLanes& v) const noexcept { return (v.x * x + v.z * z) + v.y * y; }
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 along(const float (&axis)[3], const PointLanes& v) noexcept {
+  return (v.x * simd::all(axis[0]) + v.z * simd::all(axis[2])) + v.y * simd::all(axis[1]);
+}
+
+/// A frame in all lanes: a copy, which no store can change. (Small code does without: it takes the frame's own floats.)
+struct FrameLanes {
+  simd::F32 x[3], y[3], z[3];
+  explicit FrameLanes(const Frame& frame) noexcept {
+    unroll<3>([&](auto k) {
+      x[k] = simd::all(frame.x[k]);
+      y[k] = simd::all(frame.y[k]);
+      z[k] = simd::all(frame.z[k]);
+    });
+  }
 };
 
-struct FrameLanes {
-  AxisLanes x, y, z;
-};
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 along(const simd::F32 (&axis)[3], const PointLanes& v) noexcept {
+  return (v.x * axis[0] + v.z * axis[2]) + v.y * axis[1];
+}
 
 /// Distances over the radius. Points of a regular grid lie exactly on the borders of shells, where one bit decides
 /// which neighbouring shell gets a vote: there, and only there, they are computed with more bits than a float has.
-[[nodiscard]] SHORTSHOT_INLINE simd::F32 relative_distance(const Offsets& v, const Local& local, Radius radius,
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 relative_distance(const NeighborLanes& v, const Local& local, Radius radius,
                                                            float borders) noexcept {
   const simd::F32 inverse = simd::all(1.0f / radius.value);
   const simd::F32 distance = simd::sqrt(v.d2) * inverse;
@@ -110,17 +121,18 @@ template <std::uint32_t ChunkSize>
   return {chunk * ChunkSize, 0, 1, left < ChunkSize ? left : ChunkSize};
 }
 
-/// One register of neighbours in the coordinates of a chunk, and which of them are described.
+/// One register of neighbours as in the rows of a chunk, and which of them are described.
 struct Located {
-  simd::F32 distance, elevation, azimuth, cosine;
+  simd::F32 distance, elevation, azimuth, normal;
   simd::Mask described;
 };
 
-template <class Cells, bool ExactShells, bool WithNormals, class Normals>
-[[nodiscard]] SHORTSHOT_INLINE Located locate_register(const Offsets& v, simd::I32 index, const FrameLanes& frame,
-                                                       Radius radius, float borders, const Normals& normals) noexcept {
+template <class Cells, bool ExactShells, bool WithNormals, class FrameAxes, class Normals>
+[[nodiscard]] SHORTSHOT_INLINE Located locate_register(const NeighborLanes& v, const FrameAxes& frame, Radius radius,
+                                                       float borders, const Normals& normals) noexcept {
   using simd::all;
-  const Local local{frame.x.along(v), frame.y.along(v), frame.z.along(v)};
+  const PointLanes offset{v.dx, v.dy, v.dz};
+  const Local local{along(frame.x, offset), along(frame.y, offset), along(frame.z, offset)};
   Located located{};
   if constexpr (ExactShells) {
     located.distance = relative_distance(v, local, radius, borders);
@@ -136,10 +148,10 @@ template <class Cells, bool ExactShells, bool WithNormals, class Normals>
   }
   if constexpr (WithNormals) {
     std::uint32_t indices[simd::lanes];
-    simd::store(indices, index);
-    const simd::F32 cosine = frame.z.along(normals(indices));
+    simd::store(indices, v.index);
+    const simd::F32 cosine = along(frame.z, normals(indices));
     located.described = located.described & (all(3e38f) > simd::abs(cosine));  // false for NaN
-    located.cosine = simd::max(simd::min(cosine, all(1.0f)), all(-1.0f));
+    located.normal = simd::max(simd::min(cosine, all(1.0f)), all(-1.0f)) * all(0.5f) + all(0.5f);
   }
   return located;
 }
@@ -149,12 +161,12 @@ template <class Chunk, class... Packing>
 SHORTSHOT_INLINE void append(Chunk& chunk, std::uint32_t size, simd::I32 index, const Located& located,
                              const Packing&... packing) noexcept {
   simd::store(chunk.index + size, index, packing...);
-  float* const coordinates = chunk.coordinates + size;
-  simd::store(coordinates, located.distance, packing...);
-  simd::store(coordinates + Chunk::room, located.elevation, packing...);
-  simd::store(coordinates + 2 * std::size_t{Chunk::room}, located.azimuth, packing...);
+  float* const row = chunk.rows + size;
+  simd::store(row, located.distance, packing...);
+  simd::store(row + Chunk::room, located.elevation, packing...);
+  simd::store(row + 2 * std::size_t{Chunk::room}, located.azimuth, packing...);
   if constexpr (Chunk::with_normals) {
-    simd::store(coordinates + 3 * std::size_t{Chunk::room}, located.cosine, packing...);
+    simd::store(row + Chunk::normal_row * std::size_t{Chunk::room}, located.normal, packing...);
   }
 }
 
@@ -163,29 +175,28 @@ SHORTSHOT_INLINE void append(Chunk& chunk, std::uint32_t size, simd::I32 index, 
 template <class Cells, bool ExactShells, class Neighbors, class Normals, class Chunk>
 [[gnu::noinline]] inline void locate(const Neighbors& all, const Stretches& stretches, const Frame& frame,
                                      Radius radius, float borders, const Normals& normals, Chunk& chunk) noexcept {
-  const Neighbors n = all;  // a local: no store to the chunk can change its pointers
-  const FrameLanes axes{AxisLanes(frame.x), AxisLanes(frame.y), AxisLanes(frame.z)};
+  Collector<const Neighbors> n = all;  // no store can change a local
+  std::conditional_t<small_code, const Frame&, const FrameLanes> axes(frame);
   std::uint32_t size = 0;
   for (std::uint32_t k = 0; k < stretches.count; ++k) {
     const std::uint32_t first = stretches.first + k * stretches.stride;
     const std::uint32_t end = first + stretches.length;
     for (std::uint32_t i = first; i < end; i += simd::lanes) {
-      const simd::I32 index = load_indices(n, i);
-      const Located now = locate_register<Cells, ExactShells, Chunk::with_normals>(load_offsets(n, i), index, axes,
-                                                                                   radius, borders, normals);
+      const NeighborLanes v = load_neighbors(n, i);
+      const Located now = locate_register<Cells, ExactShells, Chunk::with_normals>(v, axes, radius, borders, normals);
       if (every(now.described)) {
-        append(chunk, size, index, now);
+        append(chunk, size, v.index, now);
         size += static_cast<std::uint32_t>(simd::lanes);
       } else if constexpr (simd::lanes > 1) {
         const simd::Packing packing = simd::packing(now.described);
-        append(chunk, size, index, now, packing);
+        append(chunk, size, v.index, now, packing);
         size += packing.count;
       }
     }
   }
   chunk.size = size;
   // What passes read beyond the end must be colours that exist.
-  for (; size % simd::lanes != 0; ++size) chunk.index[size] = index_at(n, stretches.first);
+  for (; size % simd::lanes != 0; ++size) chunk.index[size] = n.index[stretches.first];
 }
 
 }  // namespace detail

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include "cloud.hpp"
@@ -11,6 +12,7 @@
 #include "rounded.hpp"
 #include "simd.hpp"
 #include "status.hpp"
+#include "unroll.hpp"
 
 namespace shortshot {
 
@@ -42,8 +44,8 @@ struct Workspace {
   std::uint32_t index[MaxNeighbors];
 };
 
-/// The same in a tenth of the memory: indices only. Offsets are worked out from the cloud whenever they are asked for,
-/// with the same bits. Trivial type.
+/// The same in a tenth (or, with 32-bit indices, a fifth) of the memory: indices only. Offsets are worked out from the
+/// cloud whenever they are asked for, with the same bits. Trivial type.
 template <class Index>
 struct CompactNeighborhood {
   Float3Channel points;  ///< of the cloud
@@ -55,7 +57,7 @@ struct CompactNeighborhood {
 };
 
 /// A Workspace of 2 bytes a neighbour (`Index` std::uint32_t: 4) for targets that have more time than memory. Clouds of
-/// more points than `Index` can tell apart have too_many_neighbors, whatever the key point.
+/// more points than `Index` can tell apart have too_many_neighbors wherever there is a neighbour.
 template <std::size_t MaxNeighbors, class Index = std::uint16_t>
 struct CompactWorkspace {
   static_assert(MaxNeighbors >= 5 && MaxNeighbors <= max_neighbors,
@@ -82,13 +84,19 @@ struct Radius {
   }
 };
 
+/// A radius must be a positive number whose square is a normal one.
 [[nodiscard]] inline Status check(Radius radius) noexcept {
-  const bool usable = math::is_finite(radius.value) && math::is_finite(radius.squared) && radius.value > 0.0f &&
-                      radius.squared > 1.17549435e-38f;
-  return usable ? Status::ok : Status::bad_radius;
+  // Bits of positive numbers order as the numbers do; infinity's follow.
+  const auto lies_from = [](std::uint32_t first, float value) {
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits - first < 0x7F800000u - first;
+  };
+  return lies_from(1u, radius.value) && lies_from(0x00800000u, radius.squared) ? Status::ok : Status::bad_radius;
 }
 
-/// An empty neighbourhood in a workspace's memory; of a compact one around the key point `center` of a cloud.
+/// An empty neighbourhood in a workspace's memory; a compact one is that of the key point `center` of `cloud`, and must
+/// be gathered around it.
 template <std::size_t MaxNeighbors>
 [[nodiscard]] inline Neighborhood neighborhood_in(Workspace<MaxNeighbors>& w) noexcept {
   return {w.dx, w.dy, w.dz, w.d2, w.index, static_cast<std::uint32_t>(MaxNeighbors), 0, 0};
@@ -106,73 +114,59 @@ template <std::size_t MaxNeighbors, class Index>
   return {cloud.points, center, w.index, all_have_indices ? static_cast<std::uint32_t>(MaxNeighbors) : 0u, 0, 0};
 }
 
-/// From the key point to a neighbour, in metres, and how far that is, squared: summed as (dx*dx + dy*dy) + dz*dz.
-struct Offset {
+/// One neighbour: from the key point to it, in metres; how far that is, squared, summed as (dx*dx + dy*dy) + dz*dz; and
+/// its index in the cloud.
+struct Neighbor {
   float dx, dy, dz, d2;
+  std::uint32_t index;
 };
 
-[[nodiscard]] inline Offset offset_of(const Point& p, const Point& center) noexcept {
+[[nodiscard]] inline Neighbor neighbor_from(const Point& center, const Point& p, std::uint32_t index) noexcept {
   const float dx = p.x - center.x;
   const float dy = p.y - center.y;
   const float dz = p.z - center.z;
-  return {dx, dy, dz, (rounded(dx * dx) + rounded(dy * dy)) + rounded(dz * dz)};
+  return {dx, dy, dz, (rounded(dx * dx) + rounded(dy * dy)) + rounded(dz * dz), index};
 }
 
-/// Neighbour `i`, one by one.
-[[nodiscard]] inline Offset offset_at(const Neighborhood& n, std::uint32_t i) noexcept {
-  return {n.dx[i], n.dy[i], n.dz[i], n.d2[i]};
+/// Neighbour `i` of a neighbourhood.
+[[nodiscard]] inline Neighbor neighbor_at(const Neighborhood& n, std::uint32_t i) noexcept {
+  return {n.dx[i], n.dy[i], n.dz[i], n.d2[i], n.index[i]};
 }
 template <class Index>
-[[nodiscard]] inline Offset offset_at(const CompactNeighborhood<Index>& n, std::uint32_t i) noexcept {
-  return offset_of(read(n.points, n.index[i]), n.center);
+[[nodiscard]] inline Neighbor neighbor_at(const CompactNeighborhood<Index>& n, std::uint32_t i) noexcept {
+  return neighbor_from(n.center, read(n.points, n.index[i]), n.index[i]);
 }
 
-template <class Neighbors>
-[[nodiscard]] inline std::uint32_t index_at(const Neighbors& n, std::uint32_t i) noexcept {
-  return n.index[i];
-}
-
-/// One register of neighbours, from `i` on. What is left over at the end comes with copies of the key point (all
-/// zeros), which no pass counts; nothing is read beyond the neighbourhood's size.
-struct Offsets {
+/// One register of neighbours. (Of five members, because compilers for ARM move structs of up to four floats to
+/// registers and back wherever a function returns them.)
+struct NeighborLanes {
   simd::F32 dx, dy, dz, d2;
+  simd::I32 index;
 };
 
+/// The register from neighbour `i` on. What is left over at the end comes with copies of the key point (all zeros),
+/// which no pass counts; nothing is read beyond the neighbourhood's size.
 template <class Neighbors>
-[[nodiscard]] SHORTSHOT_INLINE Offsets load_offsets_one_by_one(const Neighbors& n, std::uint32_t i) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE NeighborLanes load_neighbors(const Neighbors& n, std::uint32_t i) noexcept {
   float lanes[4][simd::lanes] = {};
+  std::uint32_t index[simd::lanes] = {};
   for (std::uint32_t k = 0; k < simd::lanes && k < n.size - i; ++k) {
-    const Offset v = offset_at(n, i + k);
+    const Neighbor v = neighbor_at(n, i + k);
     lanes[0][k] = v.dx;
     lanes[1][k] = v.dy;
     lanes[2][k] = v.dz;
     lanes[3][k] = v.d2;
+    index[k] = v.index;
   }
-  return {simd::load(lanes[0]), simd::load(lanes[1]), simd::load(lanes[2]), simd::load(lanes[3])};
+  return {simd::load(lanes[0]), simd::load(lanes[1]), simd::load(lanes[2]), simd::load(lanes[3]), simd::load(index)};
 }
 
-[[nodiscard]] SHORTSHOT_INLINE Offsets load_offsets(const Neighborhood& n, std::uint32_t i) noexcept {
-  if (n.size - i >= simd::lanes) {
-    return {simd::load(n.dx + i), simd::load(n.dy + i), simd::load(n.dz + i), simd::load(n.d2 + i)};
+[[nodiscard]] SHORTSHOT_INLINE NeighborLanes load_neighbors(const Neighborhood& n, std::uint32_t i) noexcept {
+  if (simd::lanes == 1 || n.size - i >= simd::lanes) {
+    return {simd::load(n.dx + i), simd::load(n.dy + i), simd::load(n.dz + i), simd::load(n.d2 + i),
+            simd::load(n.index + i)};
   }
-  return load_offsets_one_by_one(n, i);
-}
-
-template <class Index>
-[[nodiscard]] SHORTSHOT_INLINE Offsets load_offsets(const CompactNeighborhood<Index>& n, std::uint32_t i) noexcept {
-  return load_offsets_one_by_one(n, i);
-}
-
-/// The same register's indices; 0 for what is left over.
-template <class Neighbors>
-[[nodiscard]] SHORTSHOT_INLINE simd::I32 load_indices(const Neighbors& n, std::uint32_t i) noexcept {
-  std::uint32_t lanes[simd::lanes] = {};
-  for (std::uint32_t k = 0; k < simd::lanes && k < n.size - i; ++k) lanes[k] = index_at(n, i + k);
-  return simd::load(lanes);
-}
-
-[[nodiscard]] SHORTSHOT_INLINE simd::I32 load_indices(const Neighborhood& n, std::uint32_t i) noexcept {
-  return n.size - i >= simd::lanes ? simd::load(n.index + i) : load_indices<Neighborhood>(n, i);
+  return load_neighbors<Neighborhood>(n, i);
 }
 
 /// How many of the neighbours lie within a radius, the key point and its copies included.
@@ -181,7 +175,7 @@ template <class Neighbors>
   simd::I32 counts{};
   std::uint32_t i = 0;
   for (; i < n.size; i += simd::lanes) {
-    counts = increment(load_offsets(n, i).d2 < simd::all(radius.squared), counts);
+    counts = increment(load_neighbors(n, i).d2 < simd::all(radius.squared), counts);
   }
   return static_cast<std::uint32_t>(sum(counts)) - (i - n.size);  // without what fills up the last register
 }
@@ -203,16 +197,16 @@ template <class Neighbors>
 }  // namespace detail
 
 /// Write down neighbour `i`.
-inline void put(Neighborhood& n, std::uint32_t i, const Offset& v, std::uint32_t index) noexcept {
+inline void put(Neighborhood& n, std::uint32_t i, const Neighbor& v) noexcept {
   n.dx[i] = v.dx;
   n.dy[i] = v.dy;
   n.dz[i] = v.dz;
   n.d2[i] = v.d2;
-  n.index[i] = index;
+  n.index[i] = v.index;
 }
 template <class Index>
-inline void put(CompactNeighborhood<Index>& n, std::uint32_t i, const Offset&, std::uint32_t index) noexcept {
-  n.index[i] = static_cast<Index>(index);
+inline void put(CompactNeighborhood<Index>& n, std::uint32_t i, const Neighbor& v) noexcept {
+  n.index[i] = static_cast<Index>(v.index);
 }
 
 /// Offer one point of the cloud to the neighbourhood: THE membership rule, for every search. A point is a neighbour if
@@ -220,14 +214,16 @@ inline void put(CompactNeighborhood<Index>& n, std::uint32_t i, const Offset&, s
 template <class Neighbors>
 inline void offer(Neighbors& out, const Point& p, std::uint32_t index, const Point& center,
                   float radius_squared) noexcept {
-  const Offset v = offset_of(p, center);
+  const Neighbor v = neighbor_from(center, p, index);
   if (!(v.d2 < radius_squared)) return;
-  if (out.size < out.capacity) {
-    put(out, out.size, v, index);
-    ++out.size;
-  }
+  if (out.size < out.capacity) put(out, out.size++, v);
   ++out.found;
 }
+
+/// What a search offers its points to: a local of its own, which no store can change, and which it copies to its
+/// caller's in the end; or that one itself, where code shall be small.
+template <class Neighbors>
+using Collector = std::conditional_t<detail::small_code, Neighbors&, Neighbors>;
 
 /// To be called by a search before it offers the first point.
 template <class Neighbors>

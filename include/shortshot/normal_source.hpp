@@ -19,6 +19,10 @@ struct CloudNormals {
   [[nodiscard]] Status status() const noexcept { return normals.x != nullptr ? Status::ok : Status::missing_normals; }
   /// One register of normals by index.
   [[nodiscard, gnu::always_inline]] PointLanes operator()(const std::uint32_t* index) const noexcept {
+    if constexpr (simd::lanes == 1) {
+      const Point n = read(normals, *index);
+      return {simd::all(n.x), simd::all(n.y), simd::all(n.z)};
+    }
     return read_lanes(normals, [index](std::size_t lane) { return std::size_t{index[lane]}; });
   }
 };

@@ -38,7 +38,7 @@ template <class Neighbors>
 [[nodiscard]] inline float farthest_member(const Neighbors& n, Radius radius) noexcept {
   simd::F32 farthest = simd::all(0.0f);
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
-    const simd::F32 d2 = load_offsets(n, i).d2;
+    const simd::F32 d2 = load_neighbors(n, i).d2;
     farthest = simd::max(farthest, keep(d2 < simd::all(radius.squared), d2));
   }
   const float root = simd::root(simd::largest(farthest));
@@ -51,7 +51,7 @@ struct Terms {
   simd::I32 of[kinds];
 };
 
-[[nodiscard, gnu::always_inline]] inline Terms terms_of(const Offsets& v, const MomentScale& by) noexcept {
+[[nodiscard, gnu::always_inline]] inline Terms terms_of(const NeighborLanes& v, const MomentScale& by) noexcept {
   using simd::all;
   using simd::F32;
   const F32 x = v.dx * all(by.unit);
@@ -84,7 +84,7 @@ template <class Neighbors>
   Moments shares{};
   std::uint32_t i = 0;
   for (; i < n.size; i += simd::lanes) {
-    const Offsets v = load_offsets(n, i);
+    const NeighborLanes v = load_neighbors(n, i);
     const Terms terms = terms_of(v, by);
     add_where(v.d2 < simd::all(radius.squared), shares, [&](auto k) { return terms.of[k]; });
   }

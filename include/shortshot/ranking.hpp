@@ -21,11 +21,11 @@ using Place = std::uint64_t;
 
 template <class Neighbors>
 [[nodiscard]] inline Place place_at(const Neighbors& n, std::uint32_t i) noexcept {
-  const Offset v = offset_at(n, i);
+  const Neighbor v = neighbor_at(n, i);
   std::uint32_t bits = 0;
   std::memcpy(&bits, &v.d2, sizeof bits);
   if (bits == 0 && v.dx == 0.0f && v.dy == 0.0f && v.dz == 0.0f) return 0;
-  return (Place{bits} << 32 | index_at(n, i)) + 1;
+  return (Place{bits} << 32 | v.index) + 1;
 }
 
 /// How many neighbours stand before a place.
@@ -39,7 +39,7 @@ template <class Neighbors>
     std::memcpy(&d2, &bits, sizeof d2);
     simd::I32 closer{};
     for (; n.size - i >= simd::lanes; i += simd::lanes) {
-      closer = increment(load_offsets(n, i).d2 < simd::all(d2), closer);
+      closer = increment(load_neighbors(n, i).d2 < simd::all(d2), closer);
     }
     count = sum(closer);
   }
@@ -47,7 +47,7 @@ template <class Neighbors>
   return count;
 }
 
-/// A place with `rank` neighbours before it, found bit by bit; `rank` must be less than their number.
+/// A place with `rank` neighbours before it, found bit by bit; `rank` must be their number at most.
 template <class Neighbors>
 [[nodiscard]] inline Place place_of_rank(const Neighbors& n, int rank) noexcept {
   Place place = 0;

@@ -13,23 +13,37 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// t^p of a fixed p, for t from 2^-7 up to 2. With t = m 2^e, m from 1/2 to 1, and z = m - 1:
+[[nodiscard]] inline std::uint32_t bits_of(float value) noexcept {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+
+[[nodiscard]] inline float float_of(std::uint32_t bits) noexcept {
+  float value = 0.0f;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// t^p of a fixed p below 1/2, for t from 2^-7 up to 2. With t = m 2^e, m from 1/2 to 1, and z = m - 1:
 /// t^p = (1 + z (c0 + z (c1 + ... + z c9))) 2^(e p).
 struct Root {
-  std::int32_t fit[10];     ///< c0 to c9 in units of 2^-32: ((1 + z)^p - 1) / z at ten Chebyshev nodes
+  std::int32_t fit[10];     ///< c0 to c9 in units of 2^-32: ((1 + z)^p - 1) / z at Chebyshev nodes
   std::uint32_t octave[8];  ///< 2^(e p) in units of 2^-31, from e = -6 on
 
-  /// Within 2e-9 before it is rounded to float, once: of the 3965 numbers k / 4000 that CIELAB asks for, all but 17 are
-  /// the float that is closest, and those are the next one.
-  [[nodiscard]] float operator()(float t) const noexcept {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &t, sizeof bits);
+  /// In units of 2^-31, of the float that has these bits.
+  [[nodiscard]] std::uint32_t fixed(std::uint32_t bits) const noexcept {
     const auto z = static_cast<std::int32_t>(bits << 8 | 0x80000000u);  // in units of 2^-32
     std::int32_t sum = fit[9];
     each<9>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sum = fit[8 - k] + upper_half(sum, z); });
     const auto power = static_cast<std::uint32_t>(upper_half(sum, z) + 1);  // modulo 1; rounded up, as the rest is down
-    const std::uint64_t product = std::uint64_t{power} * octave[(bits >> 23) - 120u];
-    return rounded(static_cast<float>(static_cast<std::uint32_t>(product >> 32)) * (1.0f / 2147483648.0f));
+    return static_cast<std::uint32_t>((std::uint64_t{power} * octave[(bits >> 23) - 120u]) >> 32);
+  }
+
+  /// Within 2e-9 before it is rounded to float, once: of the 3965 numbers k / 4000 that CIELAB asks for, all but 18 are
+  /// the float that is closest, and those are the next one.
+  [[nodiscard]] float operator()(float t) const noexcept {
+    return rounded(static_cast<float>(fixed(bits_of(t))) * (1.0f / 2147483648.0f));
   }
 
  private:

@@ -18,6 +18,8 @@ template <class Float>
   __asm__("" : "+t"(number));
 #elif defined(__riscv_flen)
   __asm__("" : "+f"(number));
+#elif defined(__riscv_zfinx)
+  __asm__("" : "+r"(number));
 #endif
   return number;
 }

@@ -33,7 +33,7 @@ template <class Function>
 }
 
 /// The largest lane.
-[[nodiscard]] SHORTSHOT_INLINE float largest(F32 a) noexcept {
+[[nodiscard, gnu::always_inline]] inline float largest(F32 a) noexcept {
   float values[lanes];
   store(values, a);
   float result = values[0];
@@ -42,7 +42,7 @@ template <class Function>
 }
 
 /// Sum of all lanes.
-[[nodiscard]] SHORTSHOT_INLINE std::int32_t sum(I32 a) noexcept {
+[[nodiscard, gnu::always_inline]] inline std::int32_t sum(I32 a) noexcept {
   std::int32_t values[lanes];
   store(values, a);
   std::int32_t total = 0;

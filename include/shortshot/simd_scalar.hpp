@@ -32,6 +32,10 @@ struct Mask {
   float result;
   __asm__("vsqrt.f32 %0, %1" : "=t"(result) : "t"(value));
   return result;
+#elif defined(__riscv_flen)
+  float result;
+  __asm__("fsqrt.s %0, %1" : "=f"(result) : "f"(value));
+  return result;
 #else
   return __builtin_sqrtf(value);
 #endif
@@ -59,8 +63,6 @@ template <class Function>
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {a.v >= b.v}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
-[[nodiscard]] inline Mask operator^(Mask a, Mask b) noexcept { return {a.v != b.v}; }
-[[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {root(a.v)}; }
 [[nodiscard]] inline F32 abs(F32 a) noexcept { return {__builtin_fabsf(a.v)}; }

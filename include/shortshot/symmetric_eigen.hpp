@@ -42,10 +42,9 @@ SHORTSHOT_INLINE bool rotate(EigenLanes& e, simd::F32 (&off)[3], int p, int q) n
   const F32 high = simd::abs(coupling);
   const simd::Mask turns = high - all(1e-12f) > wide * all(7e-9f);  // else no component moves by half its last bit
   if (!any(turns)) return false;
-  const simd::Mask slight = all(8192.0f) * high < wide;  // float knows no better; most rotations but the first few
   const F32 root = simd::sqrt(gap * gap + all(4.0f) * (coupling * coupling));
   const F32 sum = gap + simd::negate(gap < all(0.0f), root);
-  const F32 t = keep(turns, select(slight, coupling, coupling + coupling) / select(slight, gap, sum));
+  const F32 t = keep(turns, (coupling + coupling) / sum);
   const F32 c = all(1.0f) / simd::sqrt(t * t + all(1.0f));
   const F32 s = t * c;
 

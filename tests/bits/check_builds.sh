@@ -38,6 +38,7 @@ build gcc_sse2 g++ -O2  # what all others are compared with
 build gcc_sse2_Os g++ -Os
 build gcc_sse2_O3 g++ -O3
 build gcc_scalar g++ -O2 -U__SSE2__
+build gcc_scalar_Os g++ -Os -U__SSE2__  # the code of microcontrollers
 build clang_sse2 clang++ -O2
 if grep -qw avx2 /proc/cpuinfo && grep -qw fma /proc/cpuinfo; then
   build gcc_avx2 g++ -O2 -ffp-contract=fast -mavx2 -mfma

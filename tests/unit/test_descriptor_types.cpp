@@ -45,9 +45,9 @@ constexpr bool is_plain = std::is_trivial<T>::value&& std::is_standard_layout<T>
 static_assert(is_plain<ss::Workspace<100>> && is_plain<ss::CloudView> && is_plain<ss::Frame>, "memory");
 static_assert(is_plain<ss::Neighborhood> && is_plain<ss::KeyPoint> && is_plain<ss::Lab> && is_plain<ss::Point>,
               "memory");
-static_assert(is_plain<ss::BruteSearch>, "memory");
-// Not trivial, on purpose: a support without a radius would be made of garbage.
-static_assert(std::is_trivially_copyable<ss::Radius>::value && std::is_trivially_copyable<ss::Support>::value,
+// Not trivial, on purpose: a support without a radius, or a search without a cloud, would be made of garbage.
+static_assert(std::is_trivially_copyable<ss::Radius>::value && std::is_trivially_copyable<ss::Support>::value &&
+                  std::is_trivially_copyable<ss::BruteSearch>::value,
               "memory");
 static_assert(!std::is_default_constructible<ss::Radius>::value, "a radius has a value");
 static_assert(!std::is_default_constructible<ss::Support>::value, "a support has a radius");

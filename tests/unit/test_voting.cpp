@@ -115,7 +115,8 @@ double sum_of_votes(float r, float e, float a, float h) {
   using Part = ss::Part<ss::SphericalGrid<R, E, A>, ss::ColorDistance<H>>;
   const float position[4] = {r, e, a, h};
   ss::Share shares[4];
-  for (int axis = 0; axis < 4; ++axis) shares[axis] = split<Voting>(Part::template axes<Part::values>[axis], position[axis]);
+  for (int axis = 0; axis < 4; ++axis)
+    shares[axis] = split<Voting>(Part::template axes<Part::values>[axis], position[axis]);
   const auto votes = Voting::template combine<4>(Part::template axes<Part::values>, shares, unit_of_votes);
   double sum = 0.0;
   for (const ss::simd::I32& weight : votes.weight) {

@@ -23,6 +23,19 @@ struct Extent {
 /// Extent of the valid points; returns how many there are.
 [[nodiscard]] inline std::size_t measure(const CloudView& cloud, Extent& extent) noexcept {
   constexpr float most = 3.402823466e38f;
+  if constexpr (simd::lanes == 1) {
+    extent = {{most, most, most}, {-most, -most, -most}};
+    std::size_t valid_points = 0;
+    for_each_valid(cloud, [&](std::size_t, const Point& p) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float v = coordinate(p, axis);
+        if (v < extent.low[axis]) extent.low[axis] = v;
+        if (v > extent.high[axis]) extent.high[axis] = v;
+      }
+      ++valid_points;
+    });
+    return valid_points;
+  }
   simd::F32 low[3] = {simd::all(most), simd::all(most), simd::all(most)};
   simd::F32 high[3] = {simd::all(-most), simd::all(-most), simd::all(-most)};
   simd::I32 valid_points{};
@@ -75,6 +88,26 @@ struct GridBox {
     const float near_edge = low[axis] + rounded(static_cast<float>(other < own ? other + 1 : other) * cell_size);
     const float distance = (other < own ? v - near_edge : near_edge - v) - rounding[axis];
     return distance > 0.0f ? distance : 0.0f;
+  }
+
+  /// To be called before gap() and crosses().
+  void note_rounding(const Extent& extent) noexcept {
+    const auto magnitude = [](float v) { return v < 0.0f ? 0.0f - v : v; };
+    for (int axis = 0; axis < 3; ++axis) {
+      // A dozen roundings of numbers as large as the coordinates.
+      rounding[axis] = 1e-6f * (magnitude(extent.low[axis]) + magnitude(extent.high[axis]));
+    }
+  }
+
+  /// Does a sphere reach a row of cells? `half_chord` is half of what they can have in common.
+  [[nodiscard]] bool crosses(const Point& center, std::uint32_t y, std::uint32_t z, float reach,
+                             float& half_chord) const noexcept {
+    const float gap_y = gap(1, center.y, y);
+    const float gap_z = gap(2, center.z, z);
+    const float squared = (rounded(reach * reach) - rounded(gap_y * gap_y)) - rounded(gap_z * gap_z);
+    if (!(squared >= 0.0f)) return false;
+    half_chord = simd::root(squared);
+    return true;
   }
 
   [[nodiscard]] std::size_t row(std::uint32_t y, std::uint32_t z) const noexcept {
@@ -149,36 +182,34 @@ template <class Index>
   return 2 * (last + 1 - first) <= count;
 }
 
-/// A box of at most `capacity` cells; `scratch` has as many elements and is free to be written.
+/// Where the cells of an extent are more than `capacity`: cut thinly populated ends off it. `scratch` has as many
+/// elements and is free to be written.
 template <class Index>
-[[nodiscard]] inline GridBox fit_box(const CloudView& cloud, Extent extent, std::size_t valid, float cell_size,
-                                     Index* scratch, std::size_t capacity) noexcept {
-  GridBox box;
+inline void leave_outliers_out(const CloudView& cloud, std::size_t valid, float cell_size, Index* scratch,
+                               std::size_t capacity, Extent& extent) noexcept {
+  std::uint32_t dims[3];
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // A round divides the extent by up to 64: two dozen span all of float's range.
     for (int round = 0; round < 24 && capacity >= 64; ++round) {
-      if (count_cells(extent, cell_size, capacity, box.dims)) break;
+      if (count_cells(extent, cell_size, capacity, dims)) return;
       if (!trim(cloud, valid, axis, scratch, extent)) break;
     }
   }
-  bool fits = count_cells(extent, cell_size, capacity, box.dims);
-  while (!fits && cell_size < 1e37f) {
-    cell_size *= 1.25f;
-    fits = count_cells(extent, cell_size, capacity, box.dims);
+}
+
+/// A box of at most `capacity` cells, which may become larger than `cell_size`.
+inline void fit_box(const Extent& extent, float cell_size, std::size_t capacity, GridBox& box) noexcept {
+  bool fits = false;
+  for (; !(fits = count_cells(extent, cell_size, capacity, box.dims)) && cell_size < 1e37f; cell_size *= 1.25f) {
   }
 
   box.cell_size = cell_size;
   box.cells_per_metre = 1.0f / cell_size;
   for (int axis = 0; axis < 3; ++axis) {
-    const float low = extent.low[axis];
-    const float high = extent.high[axis];
-    box.low[axis] = low;
-    // A dozen roundings of numbers as large as the coordinates.
-    box.rounding[axis] = 1e-6f * ((low < 0.0f ? 0.0f - low : low) + (high < 0.0f ? 0.0f - high : high));
+    box.low[axis] = extent.low[axis];
     if (!fits) box.dims[axis] = 1;  // an extent of all of float's range
     box.last[axis] = static_cast<float>(box.dims[axis] - 1);
   }
-  return box;
 }
 
 }  // namespace detail
