@@ -32,9 +32,15 @@ std::vector<Document> generate(const std::string& root) {
   const std::string instructions = root + "/bench/instructions/expected.json";
   const Machine machine = read_machine(machine_path(root));
   const std::vector<JsonRow> peers = scaling::read_rows(results + "peers.json");
+  const nlohmann::ordered_json firmware = scaling::read_json(results + "firmware.json");
 
   Document readme = read_document(root + "/README.md");
   generate_block(readme, "headline", headline(results + "peers.json", peers, machine));
+
+  generate_block(readme, "firmware", firmware_headline(results + "firmware.json", firmware));
+
+  Document page = read_document(root + "/bench/firmware/README.md");
+  generate_block(page, "firmware", firmware_tables(firmware));
 
   Document report = read_document(root + "/bench/RESULTS.md");
   generate_block(report, "machine", machine_lines(machine));
@@ -43,7 +49,7 @@ std::vector<Document> generate(const std::string& root) {
   generate_block(report, "micro", micro_table(results + "micro.json", scaling::read_json(results + "micro.json")));
   generate_block(report, "instructions", instructions_table(instructions, scaling::read_json(instructions)));
   generate_block(report, "scaling", scaling_tables(scaling::read_curves(results + "scaling.json"), "results"));
-  return {readme, report};
+  return {readme, report, page};
 }
 
 }  // namespace shortshot_bench::results

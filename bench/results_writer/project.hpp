@@ -12,8 +12,9 @@ struct Document {
   std::string generated;  // what it should hold
 };
 
-/// README.md and bench/RESULTS.md of the project in `root`, with their generated blocks made of bench/results/*.json
-/// and bench/instructions/expected.json. Throws std::runtime_error with the file's name if one is missing or malformed.
+/// README.md, bench/RESULTS.md and bench/firmware/README.md of the project in `root`, with their generated blocks made
+/// of bench/results/*.json and bench/instructions/expected.json. Throws std::runtime_error with the file's name if one
+/// is missing or malformed.
 std::vector<Document> generate(const std::string& root);
 
 /// Where the machine is written down.

@@ -27,6 +27,10 @@ std::string micro_table(const std::string& path, const nlohmann::ordered_json& j
 /// `json` is the instruction gate's record: compiler, flags, workload, instructions_per_neighbour.
 std::string instructions_table(const std::string& path, const nlohmann::ordered_json& json);
 
+/// `json` is what ./run firmware --record wrote: the README's rows, and the firmware page's tables.
+std::string firmware_headline(const std::string& path, const nlohmann::ordered_json& json);
+std::string firmware_tables(const nlohmann::ordered_json& json);
+
 /// For each curve a table and its plot, which lies in the folder `plots`.
 std::string scaling_tables(const std::vector<CurvePoint>& points, const std::string& plots);
 

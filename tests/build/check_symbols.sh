@@ -1,6 +1,8 @@
 #!/bin/sh
 # check_symbols.sh OBJECT: does compiled code keep the kernel's promises? Prints a line "broken: PROMISE (what)" for each
 # broken one; exit code 1 if there is any.
+# check_symbols.sh --image PROGRAM: the same for a linked program, of whose symbols all are looked at: there is no other
+# code, but also what start-up and the compiler's own library are made of.
 # check_symbols.sh --must-report PROMISE OBJECT: exit code 0 if that promise is reported as broken, else 1.
 # NM and OBJDUMP name other tools than the host's, for cross-compiled objects.
 set -eu
@@ -14,6 +16,11 @@ if [ "$1" = --must-report ]; then
   exit
 fi
 
+symbols=-u
+if [ "$1" = --image ]; then
+  symbols=-p
+  shift
+fi
 object=$1
 report=
 
@@ -27,19 +34,20 @@ broken() {
   done
 }
 
-# What the object takes from elsewhere. memset and memcpy (and ARM's own names for them) are all that it may.
-for symbol in $("${NM:-nm}" -u "$object" | awk '{ print $NF }'); do
+# What the object takes from elsewhere. memset and memcpy (and ARM's own names for them) are all that it may, and how the
+# compiler counts leading zeros where the CPU cannot.
+for symbol in $("${NM:-nm}" $symbols "$object" | awk '{ print $NF }'); do
   case $symbol in
-    memset | memcpy | __aeabi_memset* | __aeabi_memclr* | __aeabi_memcpy*) ;;
+    memset | memcpy | __aeabi_memset* | __aeabi_memclr* | __aeabi_memcpy* | __clzsi2) ;;
     _Zn* | _Zd[la]* | malloc | calloc | realloc | free | aligned_alloc) broken "no heap" "$symbol" ;;
     __cxa_guard_*) broken "no function-local statics" "$symbol" ;;
     __cxa_*exception* | __cxa_throw* | __cxa_rethrow* | __cxa_*catch* | __gxx_personality* | _Unwind* | \
       __aeabi_unwind* | _ZSt*__throw_*) broken "no exceptions" "$symbol" ;;
-    _ZTI* | _ZTVN10__cxxabiv1* | __dynamic_cast) broken "no RTTI" "$symbol" ;;
+    _ZTI* | _ZTV* | _ZTS* | __dynamic_cast) broken "no RTTI" "$symbol" ;;
     *printf* | puts | putchar | fputs | fputc | fwrite | _ZNSo* | _ZSt4cout | _ZSt4cerr) broken "no printing" "$symbol" ;;
     __aeabi_d* | __aeabi_*2d | __*df[23] | __truncdfsf2 | __float*df | __fix*df*)
       broken "no double" "$symbol" ;;
-    *) broken "no calls to other code" "$symbol" ;;
+    *) [ $symbols = -p ] || broken "no calls to other code" "$symbol" ;;
   esac
 done
 
@@ -64,11 +72,11 @@ doubles=$("${OBJDUMP:-objdump}" -d --no-show-raw-insn "$object" | awk -F '\t' '
 # shellcheck disable=SC2086  # one word for each instruction
 broken "no double" $doubles
 
-# Instructions that round a product and a sum once, for both: AVX, AArch64, ARM's VFP (whose vmla rounds twice). Even
-# where the product is exact and they change nothing, so that this needs no judgement.
+# Instructions that round a product and a sum once, for both: AVX, AArch64, RISC-V, ARM's VFP (whose vmla rounds twice).
+# Even where the product is exact and they change nothing, so that this needs no judgement.
 fused=$("${OBJDUMP:-objdump}" -d --no-show-raw-insn "$object" | awk -F '\t' '
   { name = $2; sub(/ .*/, "", name) }
-  name ~ /^vfn?m(add|sub|addsub|subadd)[0-9]*[sp][sd]$/ || name ~ /^fn?m(add|sub|la|ls)$/ ||
+  name ~ /^vfn?m(add|sub|addsub|subadd)[0-9]*[sp][sd]$/ || name ~ /^fn?m(add|sub|la|ls)([.][sd])?$/ ||
   name ~ /^vfn?m[as]\./ { print name }' | sort -u)
 # shellcheck disable=SC2086  # one word for each instruction
 broken "no fused multiply-add" $fused

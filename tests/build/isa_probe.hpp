@@ -13,4 +13,5 @@ struct IsaProbe {
 
 IsaProbe describe_sse2();
 IsaProbe describe_scalar();
+IsaProbe describe_sse2_small();
 IsaProbe describe_avx2();

@@ -1,4 +1,4 @@
-// One program of translation units for different instruction sets: all must compute the same bits.
+// One program of translation units for different instruction sets, and for size: all must compute the same bits.
 #include <cstdio>
 #include <cstring>
 
@@ -20,6 +20,7 @@ bool same(const char* name, const IsaProbe& probe, const IsaProbe& reference) {
 int main() {
   const IsaProbe reference = describe_sse2();
   if (!same("scalar", describe_scalar(), reference)) return 1;
+  if (!same("small", describe_sse2_small(), reference)) return 1;
   if (!__builtin_cpu_supports("avx2")) {
     std::puts("avx2: skipped, this CPU has none");
     return 77;

@@ -14,7 +14,9 @@ float descriptor[shortshot::Cshot1344::size];
 shortshot::PackedLab colors[max_points];
 shortshot::Normal normals[max_points];
 shortshot::BinaryDescriptor<shortshot::Shot352> bits, last_bits;
+shortshot::ByteDescriptor<shortshot::Scsh336> bytes, last_bytes;
 volatile int bits_apart;
+volatile std::uint32_t bytes_apart;
 
 using Multilinear = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::MultilinearVoting>;
 using Hard = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::HardVoting, shortshot::LogRadius<>>;
@@ -38,6 +40,16 @@ shortshot::Status describe_packed(const shortshot::CloudView& cloud, std::size_t
   if (status != Status::ok) return status;
   const shortshot::PackedColors source{colors, shortshot::to_lab<Rule>(key.color)};
   return shortshot::describe<shortshot::Scsh336>(n, source, frame, radius, descriptor);
+}
+
+/// A descriptor in bytes, and how far it is from the one before.
+shortshot::Status describe_in_bytes(const shortshot::CloudView& cloud, std::size_t index, float radius) {
+  const shortshot::Status status = describe<shortshot::Scsh336>(cloud, grid, index, radius);
+  if (status != shortshot::Status::ok) return status;
+  last_bytes = bytes;
+  shortshot::quantize(descriptor, bytes);
+  bytes_apart = shortshot::squared_distance(bytes, last_bytes);
+  return status;
 }
 
 /// SHOT, CSHOT and B-SHOT, with normals of this cloud's own.
@@ -70,7 +82,7 @@ extern "C" const float* describe_patch(const float* xyz, const unsigned char* rg
   const shortshot::CloudView cloud = shortshot::view_xyz_rgb(xyz, rgb, count);
   Status status = grid.build(cloud, radius);
   if (status == Status::ok) status = describe<shortshot::Ssh32>(cloud, grid, index, radius);
-  if (status == Status::ok) status = describe<shortshot::Scsh336>(cloud, grid, index, radius);
+  if (status == Status::ok) status = describe_in_bytes(cloud, index, radius);
   if (status == Status::ok) status = describe_packed(cloud, index, radius);
   if (status == Status::ok) status = describe_with_normals(cloud, index, radius);
   if (status == Status::ok) status = describe<shortshot::Scsh696>(cloud, shortshot::BruteSearch{cloud}, index, radius);
