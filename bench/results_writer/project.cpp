@@ -23,6 +23,16 @@ void generate_block(Document& document, const std::string& name, const std::stri
   document.generated = with_block(document.generated, name, content, document.path);
 }
 
+/// make() of a JSON file; what it misses is said with the file's name.
+template <class Make>
+std::string made_of(const std::string& path, const Make& make) {
+  try {
+    return make();
+  } catch (const nlohmann::ordered_json::exception& error) {
+    throw std::runtime_error(path + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 std::string machine_path(const std::string& root) { return root + "/bench/results/machine.json"; }
@@ -37,10 +47,12 @@ std::vector<Document> generate(const std::string& root) {
   Document readme = read_document(root + "/README.md");
   generate_block(readme, "headline", headline(results + "peers.json", peers, machine));
 
-  generate_block(readme, "firmware", firmware_headline(results + "firmware.json", firmware));
+  const std::string firmware_path = results + "firmware.json";
+  generate_block(readme, "firmware",
+                 made_of(firmware_path, [&] { return firmware_headline(firmware_path, firmware); }));
 
   Document page = read_document(root + "/bench/firmware/README.md");
-  generate_block(page, "firmware", firmware_tables(firmware));
+  generate_block(page, "firmware", made_of(firmware_path, [&] { return firmware_tables(firmware); }));
 
   Document report = read_document(root + "/bench/RESULTS.md");
   generate_block(report, "machine", machine_lines(machine));

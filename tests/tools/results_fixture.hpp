@@ -34,11 +34,34 @@ inline std::string peers() {
   return list + "]";
 }
 
+/// What ./run firmware --record writes, of two configurations on one core.
+inline std::string firmware() {
+  std::string figures;
+  for (const char* configuration : {"Ssh96", "Scsh336"}) {
+    for (const char* workspace : {"full", "compact"}) {
+      for (const char* level : {"Os", "O2"}) {
+        figures += (figures.empty() ? "" : ", ") + std::string(R"({"target": "m7", "level": ")") + level +
+                   R"(", "configuration": ")" + configuration + R"(", "workspace": ")" + workspace +
+                   R"(", "flash_brute": 5100.0, "flash_grid": 6200.0, "static_bytes": 0.0, "stack_outside_chunk": 444.0,
+                   "chunk_bytes": 324.0, "workspace_bytes_per_neighbor": 20.0, "work_per_neighbor": 555.4,
+                   "work_fixed": 3210.0})";
+      }
+    }
+  }
+  return R"({"figures": [)" + figures +
+         R"(], "hashes": [{"target": "m7", "level": "O2", "configuration": "Ssh96", "hash": "0badcafe"}],
+         "budgets": [{"promise": "less", "goal": 475, "at_most": 560, "measured": 555.4, "where": "Scsh336 on m7"}]})";
+}
+
 /// A folder of its own with all files that the results are made of; it goes with the object.
 class Project {
  public:
   Project() {
-    write("README.md", "before\n<!-- generated: headline -->\nold\n<!-- end -->\nafter\n");
+    write(
+        "README.md",
+        "before\n<!-- generated: headline -->\nold\n<!-- end -->\nafter\n<!-- generated: firmware -->\n<!-- end -->\n");
+    write("bench/firmware/README.md", "# Page\n<!-- generated: firmware -->\n<!-- end -->\n");
+    write("bench/results/firmware.json", firmware());
     std::string report = "# Report\n";
     for (const char* name : {"machine", "goals", "peers", "micro", "instructions", "scaling"}) {
       report += std::string("<!-- generated: ") + name + " -->\n<!-- end -->\n";

@@ -110,13 +110,30 @@ TEST_CASE("what was generated is what is generated again") {
   for (const Document& document : generate(project.root())) CHECK(document.committed == document.generated);
   project.write("bench/results/machine.json",
                 R"({"cpu": "Other", "cores": 2, "system": "Debian", "compiler": "GCC 12", "flags": "-O2"})");
-  for (const Document& document : generate(project.root())) CHECK(document.committed != document.generated);
+  const std::vector<Document> documents = generate(project.root());
+  CHECK(documents.at(0).committed != documents.at(0).generated);
+  CHECK(documents.at(1).committed != documents.at(1).generated);
+  CHECK(documents.at(2).committed == documents.at(2).generated);  // knows nothing of the machine
+}
+
+TEST_CASE("firmware: the README's rows, and the page's tables") {
+  const Project project;
+  const std::vector<Document> documents = generate(project.root());
+  CHECK(has(documents.at(0).generated,
+            "| Scsh336 | 5100 B | 0 | 20 B, compact 20 B | 444 B + 324 B | 555 a neighbour + 3210 |\n"));
+  const std::string& page = documents.at(2).generated;
+  CHECK(has(page, "| less (goal missed) | 475 | 560 | 555 | Scsh336 on m7 |\n"));
+  CHECK(has(page, "| m7 -O2, compact | 5100 | 1100 | | | 444 | 324 | 555 | | 3210 | | |\n"));
+  CHECK(has(page, "Hash of the bits: 0badcafe"));
+  const std::string file = "bench/results/firmware.json";
+  CHECK(has(refusal_of(file, "{}"), "'figures' not found"));
+  CHECK(has(refusal_of(file, R"({"figures": [], "hashes": [], "budgets": []})"), "no figures of Ssh96 on m7 -Os"));
 }
 
 TEST_CASE("a missing or malformed file is named, and what is wrong with it") {
   for (const char* file : {"README.md", "bench/RESULTS.md", "bench/results/machine.json", "bench/results/peers.json",
                            "bench/results/goals.json", "bench/results/micro.json", "bench/instructions/expected.json",
-                           "bench/results/scaling.json"}) {
+                           "bench/results/scaling.json", "bench/results/firmware.json", "bench/firmware/README.md"}) {
     CAPTURE(file);
     const Project project;
     std::filesystem::remove(project.path(file));
