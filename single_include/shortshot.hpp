@@ -3641,7 +3641,7 @@ template <int Factor>
 /// All votes for a part of one register of a chunk's neighbours, from `i` on, whose shares in the grid are known.
 template <class Voting, class Part, class Chunk>
 [[nodiscard]] SHORTSHOT_INLINE Votes<votes_of<Voting, Part>> votes_at(const Chunk& chunk, std::uint32_t i,
-                                                                      PointShares&& shares,
+                                                                      PointShares shares,
                                                                       const VoteUnit& unit) noexcept {
   constexpr const Axis(&axes)[4] = Part::template axes<Part::values>;
   if constexpr (Part::has_histogram) {
@@ -3710,8 +3710,9 @@ struct ChunkVotes {
   /// The votes of one register of neighbours, from `i` on. Weights that the `First` part on the grid has as well are
   /// kept there only.
   template <bool First, class Chunk>
-  SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, PointShares&& shares, const VoteUnit& unit) noexcept {
-    const Votes<count> votes = votes_at<Voting, Part>(chunk, i, std::move(shares), unit);
+  SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, const PointShares& shares,
+                             const VoteUnit& unit) noexcept {
+    const Votes<count> votes = votes_at<Voting, Part>(chunk, i, shares, unit);
     unroll<count>([&](auto k) {
       simd::store(index + i + k * ChunkSize, votes.index[k]);
       if constexpr (First || !is_shared<Voting>(k)) simd::store(weight + i + k * ChunkSize, votes.weight[k]);
@@ -3782,7 +3783,7 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& fi
   for (std::uint32_t i = 0; i < size; i += simd::lanes) {
     PointShares shares = grid_shares<Voting, Part, values>(coordinates_at(chunk, i), unit);
     if constexpr (sizeof...(Others) == 0) {
-      first.template cast<true>(chunk, i, std::move(shares), unit);
+      first.template cast<true>(chunk, i, shares, unit);
     } else {
       first.template cast<true>(chunk, i, widened<Part::values / values>(shares), unit);
       (others.template cast<false>(chunk, i, widened<std::decay_t<Others>::Part::values / values>(shares), unit), ...);
@@ -3928,8 +3929,8 @@ namespace detail {
     s[i % 8] += rounded(values[i] * values[i]);
   }
 
-  for (int count = 4; count > 0; count /= 2) {  // neighbours first
-    for (int k = 0; k < count; ++k) s[k] = s[2 * k] + s[2 * k + 1];
+  for (std::size_t count = 4; count > 0; count /= 2) {  // neighbours first
+    for (std::size_t k = 0; k < count; ++k) s[k] = s[2 * k] + s[2 * k + 1];
   }
   if (!(s[0] > 0.0f)) return Status::too_few_neighbors;
   const float inverse = 1.0f / simd::root(s[0]);

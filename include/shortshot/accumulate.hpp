@@ -73,8 +73,9 @@ struct ChunkVotes {
   /// The votes of one register of neighbours, from `i` on. Weights that the `First` part on the grid has as well are
   /// kept there only.
   template <bool First, class Chunk>
-  SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, PointShares&& shares, const VoteUnit& unit) noexcept {
-    const Votes<count> votes = votes_at<Voting, Part>(chunk, i, std::move(shares), unit);
+  SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, const PointShares& shares,
+                             const VoteUnit& unit) noexcept {
+    const Votes<count> votes = votes_at<Voting, Part>(chunk, i, shares, unit);
     unroll<count>([&](auto k) {
       simd::store(index + i + k * ChunkSize, votes.index[k]);
       if constexpr (First || !is_shared<Voting>(k)) simd::store(weight + i + k * ChunkSize, votes.weight[k]);
@@ -145,7 +146,7 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& fi
   for (std::uint32_t i = 0; i < size; i += simd::lanes) {
     PointShares shares = grid_shares<Voting, Part, values>(coordinates_at(chunk, i), unit);
     if constexpr (sizeof...(Others) == 0) {
-      first.template cast<true>(chunk, i, std::move(shares), unit);
+      first.template cast<true>(chunk, i, shares, unit);
     } else {
       first.template cast<true>(chunk, i, widened<Part::values / values>(shares), unit);
       (others.template cast<false>(chunk, i, widened<std::decay_t<Others>::Part::values / values>(shares), unit), ...);

@@ -5,6 +5,7 @@
 // addition (accumulate.hpp). Votes are integers, and so are their sums (fixed_point.hpp).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <type_traits>
@@ -57,8 +58,8 @@ namespace detail {
     s[i % 8] += rounded(values[i] * values[i]);
   }
 
-  for (int count = 4; count > 0; count /= 2) {  // neighbours first
-    for (int k = 0; k < count; ++k) s[k] = s[2 * k] + s[2 * k + 1];
+  for (std::size_t count = 4; count > 0; count /= 2) {  // neighbours first
+    for (std::size_t k = 0; k < count; ++k) s[k] = s[2 * k] + s[2 * k + 1];
   }
   if (!(s[0] > 0.0f)) return Status::too_few_neighbors;
   const float inverse = 1.0f / simd::root(s[0]);

@@ -85,7 +85,7 @@ template <int Factor>
 /// All votes for a part of one register of a chunk's neighbours, from `i` on, whose shares in the grid are known.
 template <class Voting, class Part, class Chunk>
 [[nodiscard]] SHORTSHOT_INLINE Votes<votes_of<Voting, Part>> votes_at(const Chunk& chunk, std::uint32_t i,
-                                                                      PointShares&& shares,
+                                                                      PointShares shares,
                                                                       const VoteUnit& unit) noexcept {
   constexpr const Axis(&axes)[4] = Part::template axes<Part::values>;
   if constexpr (Part::has_histogram) {
