@@ -866,12 +866,20 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace math {
 
-/// True for finite numbers, by the exponent bits: holds under -ffast-math too, where comparisons with NaN do not.
-[[nodiscard]] inline bool is_finite(float value) noexcept {
+/// A number's bits, and the number that has these bits.
+[[nodiscard]] inline std::uint32_t bits_of(float value) noexcept {
   std::uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
-  return (bits & 0x7F800000u) != 0x7F800000u;
+  return bits;
 }
+[[nodiscard]] inline float float_of(std::uint32_t bits) noexcept {
+  float value = 0.0f;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// True for finite numbers, by the exponent bits: holds under -ffast-math too, where comparisons with NaN do not.
+[[nodiscard]] inline bool is_finite(float value) noexcept { return (bits_of(value) & 0x7F800000u) != 0x7F800000u; }
 
 [[nodiscard]] inline bool is_finite(const float (&v)[3]) noexcept {
   for (const float component : v) {
@@ -911,13 +919,10 @@ namespace math {
 
 /// Natural logarithm of a positive normal number, absolute error below 2e-7 near 1, relative below 2e-7 elsewhere.
 [[nodiscard]] inline float log(float value) noexcept {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
+  const std::uint32_t bits = bits_of(value);
   // Exponent such that the mantissa m lies in [sqrt(1/2), sqrt(2)): the series below is symmetric about 1.
   const std::int32_t exponent = static_cast<std::int32_t>((bits + 0x004AFB0Du) >> 23) - 127;
-  bits -= static_cast<std::uint32_t>(exponent) << 23;
-  float m = 0.0f;
-  std::memcpy(&m, &bits, sizeof m);
+  const float m = float_of(bits - (static_cast<std::uint32_t>(exponent) << 23));
   const float s = (m - 1.0f) / (m + 1.0f);  // ln m = 2 artanh s, |s| < 0.172
   const float s2 = s * s;
   const float artanh =
@@ -927,14 +932,7 @@ namespace math {
 }
 
 /// The largest power of two not above a positive normal number.
-[[nodiscard]] inline float power_of_two_below(float value) noexcept {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  bits &= 0x7F800000u;
-  float power = 0.0f;
-  std::memcpy(&power, &bits, sizeof power);
-  return power;
-}
+[[nodiscard]] inline float power_of_two_below(float value) noexcept { return float_of(bits_of(value) & 0x7F800000u); }
 
 /// What length() needs to know of vectors no longer than `longest`: 1.5 * 2^23 quanta, each 2^-10 of its power of two.
 [[nodiscard]] inline float length_splitter(float longest) noexcept {
@@ -1177,6 +1175,12 @@ namespace detail {
 struct PointLanes {
   simd::F32 x, y, z;
 };
+
+/// Their component along an axis, rounded as PCL and the published code round it: x + z first, then y.
+/// In place for small code as well: a call of it is longer than what it does.
+[[nodiscard, gnu::always_inline]] inline simd::F32 along(const simd::F32 (&axis)[3], const PointLanes& v) noexcept {
+  return (v.x * axis[0] + v.z * axis[2]) + v.y * axis[1];
+}
 
 /// Element index_at(k) in lane k.
 template <class Function>
@@ -1686,18 +1690,6 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-[[nodiscard]] inline std::uint32_t bits_of(float value) noexcept {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
-
-[[nodiscard]] inline float float_of(std::uint32_t bits) noexcept {
-  float value = 0.0f;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
 /// t^p of a fixed p below 1/2, for t from 2^-7 up to 2. With t = m 2^e, m from 1/2 to 1, and z = m - 1:
 /// t^p = (1 + z (c0 + z (c1 + ... + z c9))) 2^(e p).
 struct Root {
@@ -1716,7 +1708,7 @@ struct Root {
   /// Within 2e-9 before it is rounded to float, once: of the 3965 numbers k / 4000 that CIELAB asks for, all but 18 are
   /// the float that is closest, and those are the next one.
   [[nodiscard]] float operator()(float t) const noexcept {
-    return rounded(static_cast<float>(fixed(bits_of(t))) * (1.0f / 2147483648.0f));
+    return rounded(static_cast<float>(fixed(math::bits_of(t))) * (1.0f / 2147483648.0f));
   }
 
  private:
@@ -1799,7 +1791,7 @@ inline constexpr Root srgb_root{
 /// The same power of a number from 1/16 to 1 without double: the square of its mantissa times srgb_root of it, whose p
 /// is 2.4 - 2. Of all 245 numbers that the gamma has, each has the table's bits.
 [[nodiscard]] inline float small_srgb_power(float base) noexcept {
-  const std::uint32_t bits = bits_of(base);
+  const std::uint32_t bits = math::bits_of(base);
   const std::uint32_t mantissa = bits << 8 | 0x80000000u;
   const auto square = static_cast<std::uint32_t>((std::uint64_t{mantissa} * mantissa) >> 32);
   const std::uint64_t product = std::uint64_t{srgb_root.fixed(bits)} * square;  // in units of 2^-63
@@ -1808,7 +1800,7 @@ inline constexpr Root srgb_root{
   const auto digits = static_cast<float>(high << zeros | static_cast<std::uint32_t>(product) >> (32 - zeros));
   // Times 2^(2 e - zeros - 31), where base is less than 2^e.
   const int exponent = 2 * (static_cast<int>(bits >> 23) - 126) - zeros - 31;
-  return rounded(digits * float_of(static_cast<std::uint32_t>(exponent + 127) << 23));
+  return rounded(digits * math::float_of(static_cast<std::uint32_t>(exponent + 127) << 23));
 }
 
 /// A byte without sRGB's gamma, 0 to 1.
@@ -2837,9 +2829,7 @@ struct Radius {
 [[nodiscard]] inline Status check(Radius radius) noexcept {
   // Bits of positive numbers order as the numbers do; infinity's follow.
   const auto lies_from = [](std::uint32_t first, float value) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits - first < 0x7F800000u - first;
+    return math::bits_of(value) - first < 0x7F800000u - first;
   };
   return lies_from(1u, radius.value) && lies_from(0x00800000u, radius.squared) ? Status::ok : Status::bad_radius;
 }
@@ -3006,8 +2996,7 @@ using Place = std::uint64_t;
 template <class Neighbors>
 [[nodiscard]] inline Place place_at(const Neighbors& n, std::uint32_t i) noexcept {
   const Neighbor v = neighbor_at(n, i);
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &v.d2, sizeof bits);
+  const std::uint32_t bits = math::bits_of(v.d2);
   if (bits == 0 && v.dx == 0.0f && v.dy == 0.0f && v.dz == 0.0f) return 0;
   return (Place{bits} << 32 | v.index) + 1;
 }
@@ -3018,9 +3007,7 @@ template <class Neighbors>
   int count = 0;
   std::uint32_t i = 0;
   if (simd::lanes > 1 && limit << 32 == 0) {  // whoever is closer, whole registers at a time
-    const auto bits = static_cast<std::uint32_t>(limit >> 32);
-    float d2 = 0.0f;
-    std::memcpy(&d2, &bits, sizeof d2);
+    const float d2 = math::float_of(static_cast<std::uint32_t>(limit >> 32));
     simd::I32 closer{};
     for (; n.size - i >= simd::lanes; i += simd::lanes) {
       closer = increment(load_neighbors(n, i).d2 < simd::all(d2), closer);
@@ -3286,10 +3273,9 @@ template <class Neighbors>
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const NeighborLanes v = load_neighbors(n, i);
     const simd::Mask near = within(v, radius);
-    const F32 along_x = (v.dx * x_axis[0] + v.dz * x_axis[2]) + v.dy * x_axis[1];
-    const F32 along_z = (v.dx * z_axis[0] + v.dz * z_axis[2]) + v.dy * z_axis[1];
-    against_x = increment((along_x < all(0.0f)) & near, against_x);
-    against_z = increment((along_z < all(0.0f)) & near, against_z);
+    const PointLanes offset{v.dx, v.dy, v.dz};
+    against_x = increment((along(x_axis, offset) < all(0.0f)) & near, against_x);
+    against_z = increment((along(z_axis, offset) < all(0.0f)) & near, against_z);
   }
   return {sum(against_x), sum(against_z)};
 }
@@ -3436,10 +3422,6 @@ struct FrameLanes {
     });
   }
 };
-
-[[nodiscard]] SHORTSHOT_INLINE simd::F32 along(const simd::F32 (&axis)[3], const PointLanes& v) noexcept {
-  return (v.x * axis[0] + v.z * axis[2]) + v.y * axis[1];
-}
 
 /// Distances over the radius. Points of a regular grid lie exactly on the borders of shells, where one bit decides
 /// which neighbouring shell gets a vote: there, and only there, they are computed with more bits than a float has.
@@ -3639,9 +3621,10 @@ template <int Factor>
 }
 
 /// All votes for a part of one register of a chunk's neighbours, from `i` on, whose shares in the grid are known.
+/// Those of the signal are put into the same object: on a Cortex-M a copy of it costs 56 instructions per neighbour.
 template <class Voting, class Part, class Chunk>
 [[nodiscard]] SHORTSHOT_INLINE Votes<votes_of<Voting, Part>> votes_at(const Chunk& chunk, std::uint32_t i,
-                                                                      PointShares shares,
+                                                                      PointShares& shares,
                                                                       const VoteUnit& unit) noexcept {
   constexpr const Axis(&axes)[4] = Part::template axes<Part::values>;
   if constexpr (Part::has_histogram) {
@@ -3710,8 +3693,7 @@ struct ChunkVotes {
   /// The votes of one register of neighbours, from `i` on. Weights that the `First` part on the grid has as well are
   /// kept there only.
   template <bool First, class Chunk>
-  SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, const PointShares& shares,
-                             const VoteUnit& unit) noexcept {
+  SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, PointShares&& shares, const VoteUnit& unit) noexcept {
     const Votes<count> votes = votes_at<Voting, Part>(chunk, i, shares, unit);
     unroll<count>([&](auto k) {
       simd::store(index + i + k * ChunkSize, votes.index[k]);
@@ -3781,10 +3763,11 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& fi
   }();
   const std::uint32_t size = chunk.size;
   for (std::uint32_t i = 0; i < size; i += simd::lanes) {
-    PointShares shares = grid_shares<Voting, Part, values>(coordinates_at(chunk, i), unit);
+    const Coordinates at = coordinates_at(chunk, i);
     if constexpr (sizeof...(Others) == 0) {
-      first.template cast<true>(chunk, i, shares, unit);
+      first.template cast<true>(chunk, i, grid_shares<Voting, Part, values>(at, unit), unit);
     } else {
+      const PointShares shares = grid_shares<Voting, Part, values>(at, unit);
       first.template cast<true>(chunk, i, widened<Part::values / values>(shares), unit);
       (others.template cast<false>(chunk, i, widened<std::decay_t<Others>::Part::values / values>(shares), unit), ...);
     }
@@ -3797,7 +3780,8 @@ template <class Voting, class Part, class Chunk>
 SHORTSHOT_INLINE void add_point(const Chunk& chunk, std::uint32_t i, const Coordinates& at, const VoteUnit& unit,
                                 float* values) noexcept {
   constexpr int count = votes_of<Voting, Part>;
-  const Votes<count> votes = votes_at<Voting, Part>(chunk, i, grid_shares<Voting, Part, Part::values>(at, unit), unit);
+  PointShares shares = grid_shares<Voting, Part, Part::values>(at, unit);
+  const Votes<count> votes = votes_at<Voting, Part>(chunk, i, shares, unit);
   each<count>([&](auto k) SHORTSHOT_INLINE_LAMBDA { add_vote(values, votes.index[k], votes.weight[k]); });
 }
 
@@ -3983,17 +3967,17 @@ inline constexpr std::size_t chunk_bytes = detail::scratch_bytes<ChunkSize>(D{})
 ///            come from a search, d2 must be that of dx, dy and dz, and the indices must be ones that `colors` and
 ///            `normals` have
 /// `colors`   a source of Lab by index (RgbColors, LabColors, your own like them), or NoColors if D needs none
-/// `normals`  CloudNormals, or NoNormals; not looked at if D needs none; a neighbour whose normal is not finite is left
-/// out `frame`    an orthonormal frame: estimate_frame(), or one you know `out`      D::size floats: the parts of D in
-/// order, L2 norm 1
+/// `normals`  CloudNormals, or NoNormals if D needs none; neighbours without a finite normal are left out
+/// `frame`    an orthonormal frame: estimate_frame(), or one you know
+/// `out`      D::size floats: the parts of D in order, L2 norm 1
 ///
 /// Source: SSH and SCSH: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code.
 /// SHOT and CSHOT: PCL 1.13's SHOTEstimation and SHOTColorEstimation. The rules are in cells.hpp and voting.hpp.
 /// Statuses: bad_radius, bad_frame, missing_colors, missing_normals, too_many_neighbors (over 2^24), too_few_neighbors
 /// (none to describe; for SHOT and CSHOT also fewer than five, the key point and its copies included); `out` is all
-/// zeros then, and never NaN. No allocation; reentrant; chunk_bytes<D, ChunkSize> of stack and half a kilobyte
-/// more. The result depends neither on the order of the
-/// neighbours nor on ChunkSize: what is done for a neighbour depends on no other, and sums are integers.
+/// zeros then, and never NaN. No allocation; reentrant; chunk_bytes<D, ChunkSize> of stack and half a kilobyte more.
+/// The result depends neither on the order of the neighbours nor on ChunkSize: what is done for a neighbour depends on
+/// no other, and sums are integers.
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors, class Colors, class Normals>
 [[nodiscard]] inline Status describe(const Neighbors& n, const Colors& colors, const Normals& normals,
                                      const Frame& frame, Radius radius, float* out) noexcept {
@@ -4097,8 +4081,9 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Colors>
 struct ConvertEach {};
 
 /// Where D's colours come from, as seen from a key point: from an array of the whole cloud's ones, or from its bytes.
-template <class D, class Color>
-[[nodiscard]] inline auto colors_of(const CloudView& cloud, const Rgb& reference, const Color* converted) noexcept {
+template <class D, class Color = ConvertEach>
+[[nodiscard]] inline auto colors_of(const CloudView& cloud, const Rgb& reference,
+                                    const Color* converted = nullptr) noexcept {
   if constexpr (!D::needs_colors) {
     return NoColors{};
   } else if constexpr (std::is_same<Color, ConvertEach>::value) {
@@ -4108,17 +4093,17 @@ template <class D, class Color>
   }
 }
 
-/// Key points of describe_at(), by index or as they are. Descriptors without colour need none of the key point's.
-template <class D>
-[[nodiscard]] inline Status find_key(const CloudView& cloud, std::size_t index, KeyPoint& key) noexcept {
-  if (index >= cloud.size) return Status::bad_keypoint;
-  key.position = point(cloud, index);
-  if constexpr (D::needs_colors) key.color = color(cloud, index);
-  return Status::ok;
-}
-template <class D>
-[[nodiscard]] inline Status find_key(const CloudView&, const KeyPoint& given, KeyPoint& key) noexcept {
-  key = given;
+/// A key point of describe_at(), by index or as it is. Descriptors without colour need none of the key point's.
+template <class D, class Place>
+[[nodiscard]] inline Status find_key(const CloudView& cloud, const Place& place, KeyPoint& key) noexcept {
+  if constexpr (std::is_integral<Place>::value) {
+    const auto index = static_cast<std::size_t>(place);  // a negative one becomes far too large
+    if (index >= cloud.size) return Status::bad_keypoint;
+    key.position = point(cloud, index);
+    if constexpr (D::needs_colors) key.color = color(cloud, index);
+  } else {
+    key = place;
+  }
   return Status::ok;
 }
 
@@ -4130,11 +4115,7 @@ template <class D, class Search, class Place, class Memory, class Color, class F
   std::memset(out, 0, D::size_bytes);
   KeyPoint key;
   Status status = check<D>(cloud, search, support);
-  if constexpr (std::is_integral<Place>::value) {
-    if (status == Status::ok) status = find_key<D>(cloud, static_cast<std::size_t>(place), key);
-  } else {
-    if (status == Status::ok) status = find_key<D>(cloud, place, key);
-  }
+  if (status == Status::ok) status = find_key<D>(cloud, place, key);
   if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
   if (status != Status::ok) return status;
   const auto colors = colors_of<D>(cloud, key.color, converted);
@@ -4152,9 +4133,8 @@ template <class D, class Search, class Place, class Memory, class Color, class F
 /// `support`    radii and, if known, the camera's position; a plain float is the radius in metres
 /// `workspace`  a Workspace<MaxNeighbors> or a CompactWorkspace<MaxNeighbors>: all the memory there is
 /// `out`        D::size floats: the descriptor, L2 norm 1, or all zeros if the status is not ok
-/// `converted`  colours (Lab or PackedLab), one per point, that convert_colors() made by D's own rule; without them
-/// each
-///              neighbour's bytes are converted again for every key point
+/// `converted`  colours (Lab or PackedLab), one per point, that convert_colors() made by D's own rule; without them,
+///              bytes of neighbours are converted again for every key point
 ///
 /// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint,
 /// missing_colors, missing_normals, bad_keypoint (the index), invalid_keypoint, too_many_neighbors (the workspace is

@@ -73,8 +73,7 @@ struct ChunkVotes {
   /// The votes of one register of neighbours, from `i` on. Weights that the `First` part on the grid has as well are
   /// kept there only.
   template <bool First, class Chunk>
-  SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, const PointShares& shares,
-                             const VoteUnit& unit) noexcept {
+  SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, PointShares&& shares, const VoteUnit& unit) noexcept {
     const Votes<count> votes = votes_at<Voting, Part>(chunk, i, shares, unit);
     unroll<count>([&](auto k) {
       simd::store(index + i + k * ChunkSize, votes.index[k]);
@@ -144,10 +143,11 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& fi
   }();
   const std::uint32_t size = chunk.size;
   for (std::uint32_t i = 0; i < size; i += simd::lanes) {
-    PointShares shares = grid_shares<Voting, Part, values>(coordinates_at(chunk, i), unit);
+    const Coordinates at = coordinates_at(chunk, i);
     if constexpr (sizeof...(Others) == 0) {
-      first.template cast<true>(chunk, i, shares, unit);
+      first.template cast<true>(chunk, i, grid_shares<Voting, Part, values>(at, unit), unit);
     } else {
+      const PointShares shares = grid_shares<Voting, Part, values>(at, unit);
       first.template cast<true>(chunk, i, widened<Part::values / values>(shares), unit);
       (others.template cast<false>(chunk, i, widened<std::decay_t<Others>::Part::values / values>(shares), unit), ...);
     }
@@ -160,7 +160,8 @@ template <class Voting, class Part, class Chunk>
 SHORTSHOT_INLINE void add_point(const Chunk& chunk, std::uint32_t i, const Coordinates& at, const VoteUnit& unit,
                                 float* values) noexcept {
   constexpr int count = votes_of<Voting, Part>;
-  const Votes<count> votes = votes_at<Voting, Part>(chunk, i, grid_shares<Voting, Part, Part::values>(at, unit), unit);
+  PointShares shares = grid_shares<Voting, Part, Part::values>(at, unit);
+  const Votes<count> votes = votes_at<Voting, Part>(chunk, i, shares, unit);
   each<count>([&](auto k) SHORTSHOT_INLINE_LAMBDA { add_vote(values, votes.index[k], votes.weight[k]); });
 }
 

@@ -164,6 +164,12 @@ struct PointLanes {
   simd::F32 x, y, z;
 };
 
+/// Their component along an axis, rounded as PCL and the published code round it: x + z first, then y.
+/// In place for small code as well: a call of it is longer than what it does.
+[[nodiscard, gnu::always_inline]] inline simd::F32 along(const simd::F32 (&axis)[3], const PointLanes& v) noexcept {
+  return (v.x * axis[0] + v.z * axis[2]) + v.y * axis[1];
+}
+
 /// Element index_at(k) in lane k.
 template <class Function>
 [[nodiscard, gnu::always_inline]] inline PointLanes read_lanes(const Float3Channel& channel,

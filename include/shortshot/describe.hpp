@@ -112,17 +112,17 @@ inline constexpr std::size_t chunk_bytes = detail::scratch_bytes<ChunkSize>(D{})
 ///            come from a search, d2 must be that of dx, dy and dz, and the indices must be ones that `colors` and
 ///            `normals` have
 /// `colors`   a source of Lab by index (RgbColors, LabColors, your own like them), or NoColors if D needs none
-/// `normals`  CloudNormals, or NoNormals; not looked at if D needs none; a neighbour whose normal is not finite is left
-/// out `frame`    an orthonormal frame: estimate_frame(), or one you know `out`      D::size floats: the parts of D in
-/// order, L2 norm 1
+/// `normals`  CloudNormals, or NoNormals if D needs none; neighbours without a finite normal are left out
+/// `frame`    an orthonormal frame: estimate_frame(), or one you know
+/// `out`      D::size floats: the parts of D in order, L2 norm 1
 ///
 /// Source: SSH and SCSH: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code.
 /// SHOT and CSHOT: PCL 1.13's SHOTEstimation and SHOTColorEstimation. The rules are in cells.hpp and voting.hpp.
 /// Statuses: bad_radius, bad_frame, missing_colors, missing_normals, too_many_neighbors (over 2^24), too_few_neighbors
 /// (none to describe; for SHOT and CSHOT also fewer than five, the key point and its copies included); `out` is all
-/// zeros then, and never NaN. No allocation; reentrant; chunk_bytes<D, ChunkSize> of stack and half a kilobyte
-/// more. The result depends neither on the order of the
-/// neighbours nor on ChunkSize: what is done for a neighbour depends on no other, and sums are integers.
+/// zeros then, and never NaN. No allocation; reentrant; chunk_bytes<D, ChunkSize> of stack and half a kilobyte more.
+/// The result depends neither on the order of the neighbours nor on ChunkSize: what is done for a neighbour depends on
+/// no other, and sums are integers.
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors, class Colors, class Normals>
 [[nodiscard]] inline Status describe(const Neighbors& n, const Colors& colors, const Normals& normals,
                                      const Frame& frame, Radius radius, float* out) noexcept {

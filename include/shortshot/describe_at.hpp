@@ -91,8 +91,9 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Colors>
 struct ConvertEach {};
 
 /// Where D's colours come from, as seen from a key point: from an array of the whole cloud's ones, or from its bytes.
-template <class D, class Color>
-[[nodiscard]] inline auto colors_of(const CloudView& cloud, const Rgb& reference, const Color* converted) noexcept {
+template <class D, class Color = ConvertEach>
+[[nodiscard]] inline auto colors_of(const CloudView& cloud, const Rgb& reference,
+                                    const Color* converted = nullptr) noexcept {
   if constexpr (!D::needs_colors) {
     return NoColors{};
   } else if constexpr (std::is_same<Color, ConvertEach>::value) {
@@ -102,17 +103,17 @@ template <class D, class Color>
   }
 }
 
-/// Key points of describe_at(), by index or as they are. Descriptors without colour need none of the key point's.
-template <class D>
-[[nodiscard]] inline Status find_key(const CloudView& cloud, std::size_t index, KeyPoint& key) noexcept {
-  if (index >= cloud.size) return Status::bad_keypoint;
-  key.position = point(cloud, index);
-  if constexpr (D::needs_colors) key.color = color(cloud, index);
-  return Status::ok;
-}
-template <class D>
-[[nodiscard]] inline Status find_key(const CloudView&, const KeyPoint& given, KeyPoint& key) noexcept {
-  key = given;
+/// A key point of describe_at(), by index or as it is. Descriptors without colour need none of the key point's.
+template <class D, class Place>
+[[nodiscard]] inline Status find_key(const CloudView& cloud, const Place& place, KeyPoint& key) noexcept {
+  if constexpr (std::is_integral<Place>::value) {
+    const auto index = static_cast<std::size_t>(place);  // a negative one becomes far too large
+    if (index >= cloud.size) return Status::bad_keypoint;
+    key.position = point(cloud, index);
+    if constexpr (D::needs_colors) key.color = color(cloud, index);
+  } else {
+    key = place;
+  }
   return Status::ok;
 }
 
@@ -124,11 +125,7 @@ template <class D, class Search, class Place, class Memory, class Color, class F
   std::memset(out, 0, D::size_bytes);
   KeyPoint key;
   Status status = check<D>(cloud, search, support);
-  if constexpr (std::is_integral<Place>::value) {
-    if (status == Status::ok) status = find_key<D>(cloud, static_cast<std::size_t>(place), key);
-  } else {
-    if (status == Status::ok) status = find_key<D>(cloud, place, key);
-  }
+  if (status == Status::ok) status = find_key<D>(cloud, place, key);
   if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
   if (status != Status::ok) return status;
   const auto colors = colors_of<D>(cloud, key.color, converted);
@@ -146,9 +143,8 @@ template <class D, class Search, class Place, class Memory, class Color, class F
 /// `support`    radii and, if known, the camera's position; a plain float is the radius in metres
 /// `workspace`  a Workspace<MaxNeighbors> or a CompactWorkspace<MaxNeighbors>: all the memory there is
 /// `out`        D::size floats: the descriptor, L2 norm 1, or all zeros if the status is not ok
-/// `converted`  colours (Lab or PackedLab), one per point, that convert_colors() made by D's own rule; without them
-/// each
-///              neighbour's bytes are converted again for every key point
+/// `converted`  colours (Lab or PackedLab), one per point, that convert_colors() made by D's own rule; without them,
+///              bytes of neighbours are converted again for every key point
 ///
 /// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint,
 /// missing_colors, missing_normals, bad_keypoint (the index), invalid_keypoint, too_many_neighbors (the workspace is

@@ -142,10 +142,9 @@ template <class Neighbors>
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const NeighborLanes v = load_neighbors(n, i);
     const simd::Mask near = within(v, radius);
-    const F32 along_x = (v.dx * x_axis[0] + v.dz * x_axis[2]) + v.dy * x_axis[1];
-    const F32 along_z = (v.dx * z_axis[0] + v.dz * z_axis[2]) + v.dy * z_axis[1];
-    against_x = increment((along_x < all(0.0f)) & near, against_x);
-    against_z = increment((along_z < all(0.0f)) & near, against_z);
+    const PointLanes offset{v.dx, v.dy, v.dz};
+    against_x = increment((along(x_axis, offset) < all(0.0f)) & near, against_x);
+    against_z = increment((along(z_axis, offset) < all(0.0f)) & near, against_z);
   }
   return {sum(against_x), sum(against_z)};
 }

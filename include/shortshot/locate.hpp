@@ -76,10 +76,6 @@ struct FrameLanes {
   }
 };
 
-[[nodiscard]] SHORTSHOT_INLINE simd::F32 along(const simd::F32 (&axis)[3], const PointLanes& v) noexcept {
-  return (v.x * axis[0] + v.z * axis[2]) + v.y * axis[1];
-}
-
 /// Distances over the radius. Points of a regular grid lie exactly on the borders of shells, where one bit decides
 /// which neighbouring shell gets a vote: there, and only there, they are computed with more bits than a float has.
 [[nodiscard]] SHORTSHOT_INLINE simd::F32 relative_distance(const NeighborLanes& v, const Local& local, Radius radius,

@@ -14,12 +14,20 @@ namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace math {
 
-/// True for finite numbers, by the exponent bits: holds under -ffast-math too, where comparisons with NaN do not.
-[[nodiscard]] inline bool is_finite(float value) noexcept {
+/// A number's bits, and the number that has these bits.
+[[nodiscard]] inline std::uint32_t bits_of(float value) noexcept {
   std::uint32_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);
-  return (bits & 0x7F800000u) != 0x7F800000u;
+  return bits;
 }
+[[nodiscard]] inline float float_of(std::uint32_t bits) noexcept {
+  float value = 0.0f;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// True for finite numbers, by the exponent bits: holds under -ffast-math too, where comparisons with NaN do not.
+[[nodiscard]] inline bool is_finite(float value) noexcept { return (bits_of(value) & 0x7F800000u) != 0x7F800000u; }
 
 [[nodiscard]] inline bool is_finite(const float (&v)[3]) noexcept {
   for (const float component : v) {
@@ -59,13 +67,10 @@ namespace math {
 
 /// Natural logarithm of a positive normal number, absolute error below 2e-7 near 1, relative below 2e-7 elsewhere.
 [[nodiscard]] inline float log(float value) noexcept {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
+  const std::uint32_t bits = bits_of(value);
   // Exponent such that the mantissa m lies in [sqrt(1/2), sqrt(2)): the series below is symmetric about 1.
   const std::int32_t exponent = static_cast<std::int32_t>((bits + 0x004AFB0Du) >> 23) - 127;
-  bits -= static_cast<std::uint32_t>(exponent) << 23;
-  float m = 0.0f;
-  std::memcpy(&m, &bits, sizeof m);
+  const float m = float_of(bits - (static_cast<std::uint32_t>(exponent) << 23));
   const float s = (m - 1.0f) / (m + 1.0f);  // ln m = 2 artanh s, |s| < 0.172
   const float s2 = s * s;
   const float artanh =
@@ -75,14 +80,7 @@ namespace math {
 }
 
 /// The largest power of two not above a positive normal number.
-[[nodiscard]] inline float power_of_two_below(float value) noexcept {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  bits &= 0x7F800000u;
-  float power = 0.0f;
-  std::memcpy(&power, &bits, sizeof power);
-  return power;
-}
+[[nodiscard]] inline float power_of_two_below(float value) noexcept { return float_of(bits_of(value) & 0x7F800000u); }
 
 /// What length() needs to know of vectors no longer than `longest`: 1.5 * 2^23 quanta, each 2^-10 of its power of two.
 [[nodiscard]] inline float length_splitter(float longest) noexcept {

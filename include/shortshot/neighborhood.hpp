@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 
 #include "cloud.hpp"
@@ -88,9 +87,7 @@ struct Radius {
 [[nodiscard]] inline Status check(Radius radius) noexcept {
   // Bits of positive numbers order as the numbers do; infinity's follow.
   const auto lies_from = [](std::uint32_t first, float value) {
-    std::uint32_t bits = 0;
-    std::memcpy(&bits, &value, sizeof bits);
-    return bits - first < 0x7F800000u - first;
+    return math::bits_of(value) - first < 0x7F800000u - first;
   };
   return lies_from(1u, radius.value) && lies_from(0x00800000u, radius.squared) ? Status::ok : Status::bad_radius;
 }

@@ -5,9 +5,9 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 
 #include "config.hpp"
+#include "math.hpp"
 #include "neighborhood.hpp"
 #include "simd.hpp"
 
@@ -22,8 +22,7 @@ using Place = std::uint64_t;
 template <class Neighbors>
 [[nodiscard]] inline Place place_at(const Neighbors& n, std::uint32_t i) noexcept {
   const Neighbor v = neighbor_at(n, i);
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &v.d2, sizeof bits);
+  const std::uint32_t bits = math::bits_of(v.d2);
   if (bits == 0 && v.dx == 0.0f && v.dy == 0.0f && v.dz == 0.0f) return 0;
   return (Place{bits} << 32 | v.index) + 1;
 }
@@ -34,9 +33,7 @@ template <class Neighbors>
   int count = 0;
   std::uint32_t i = 0;
   if (simd::lanes > 1 && limit << 32 == 0) {  // whoever is closer, whole registers at a time
-    const auto bits = static_cast<std::uint32_t>(limit >> 32);
-    float d2 = 0.0f;
-    std::memcpy(&d2, &bits, sizeof d2);
+    const float d2 = math::float_of(static_cast<std::uint32_t>(limit >> 32));
     simd::I32 closer{};
     for (; n.size - i >= simd::lanes; i += simd::lanes) {
       closer = increment(load_neighbors(n, i).d2 < simd::all(d2), closer);

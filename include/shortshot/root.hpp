@@ -3,27 +3,15 @@
 #pragma once
 
 #include <cstdint>
-#include <cstring>
 
 #include "config.hpp"
+#include "math.hpp"
 #include "rounded.hpp"
 #include "unroll.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
-
-[[nodiscard]] inline std::uint32_t bits_of(float value) noexcept {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
-
-[[nodiscard]] inline float float_of(std::uint32_t bits) noexcept {
-  float value = 0.0f;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
 
 /// t^p of a fixed p below 1/2, for t from 2^-7 up to 2. With t = m 2^e, m from 1/2 to 1, and z = m - 1:
 /// t^p = (1 + z (c0 + z (c1 + ... + z c9))) 2^(e p).
@@ -43,7 +31,7 @@ struct Root {
   /// Within 2e-9 before it is rounded to float, once: of the 3965 numbers k / 4000 that CIELAB asks for, all but 18 are
   /// the float that is closest, and those are the next one.
   [[nodiscard]] float operator()(float t) const noexcept {
-    return rounded(static_cast<float>(fixed(bits_of(t))) * (1.0f / 2147483648.0f));
+    return rounded(static_cast<float>(fixed(math::bits_of(t))) * (1.0f / 2147483648.0f));
   }
 
  private:

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "config.hpp"
+#include "math.hpp"
 #include "root.hpp"
 #include "rounded.hpp"
 #include "simd.hpp"
@@ -66,7 +67,7 @@ inline constexpr Root srgb_root{
 /// The same power of a number from 1/16 to 1 without double: the square of its mantissa times srgb_root of it, whose p
 /// is 2.4 - 2. Of all 245 numbers that the gamma has, each has the table's bits.
 [[nodiscard]] inline float small_srgb_power(float base) noexcept {
-  const std::uint32_t bits = bits_of(base);
+  const std::uint32_t bits = math::bits_of(base);
   const std::uint32_t mantissa = bits << 8 | 0x80000000u;
   const auto square = static_cast<std::uint32_t>((std::uint64_t{mantissa} * mantissa) >> 32);
   const std::uint64_t product = std::uint64_t{srgb_root.fixed(bits)} * square;  // in units of 2^-63
@@ -75,7 +76,7 @@ inline constexpr Root srgb_root{
   const auto digits = static_cast<float>(high << zeros | static_cast<std::uint32_t>(product) >> (32 - zeros));
   // Times 2^(2 e - zeros - 31), where base is less than 2^e.
   const int exponent = 2 * (static_cast<int>(bits >> 23) - 126) - zeros - 31;
-  return rounded(digits * float_of(static_cast<std::uint32_t>(exponent + 127) << 23));
+  return rounded(digits * math::float_of(static_cast<std::uint32_t>(exponent + 127) << 23));
 }
 
 /// A byte without sRGB's gamma, 0 to 1.

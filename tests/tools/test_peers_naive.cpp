@@ -53,8 +53,7 @@ void compare(const Task& task, const std::vector<NaivePart>& parts, OracleDescri
     ++described;
     alike += ss::dot(frame.x, their_frame.x) > 0.999f && ss::dot(frame.z, their_frame.z) > 0.999f ? 1 : 0;
 
-    const auto colors =
-        ss::detail::colors_of<D>(view, ss::color(view, key), static_cast<ss::detail::ConvertEach*>(nullptr));
+    const auto colors = ss::detail::colors_of<D>(view, ss::color(view, key));
     REQUIRE(ss::describe<D>(n, colors, frame, task.radius, our_rows.data() + row * size) == ss::Status::ok);
     std::vector<double> descriptor;
     naive.describe(key, theirs, frame, parts, descriptor);

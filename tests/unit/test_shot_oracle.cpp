@@ -97,8 +97,7 @@ void compare_one(const TestCloud& cloud, std::size_t key, float radius, const or
       oracle::shot_frame(oracle::neighbors(cloud.xyz, {p.x, p.y, p.z}, radius * radius), static_cast<double>(radius));
   REQUIRE(given.exists);
   std::vector<float> ours = garbage<D>();
-  const auto colors =
-      ss::detail::colors_of<D>(cloud.view(), cloud.color_at(key), static_cast<ss::detail::ConvertEach*>(nullptr));
+  const auto colors = ss::detail::colors_of<D>(cloud.view(), cloud.color_at(key));
   REQUIRE(ss::describe<D>(n, colors, ss::CloudNormals{cloud.view()}, to_frame(given), radius, ours.data()) ==
           Status::ok);
   count(ours, expected_of(cloud, key, given, radius, config), tally);
