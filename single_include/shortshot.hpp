@@ -4379,7 +4379,8 @@ namespace detail {
 [[nodiscard]] inline std::uint8_t byte_of(float value) noexcept {
   const float half_steps = rounded(value * 1024.0f);
   if (!(half_steps > 0.0f)) return 0;
-  return half_steps < 510.0f ? static_cast<std::uint8_t>(static_cast<std::int32_t>(half_steps + 1.0f) / 2) : 255;
+  const std::int32_t whole_steps = half_steps < 510.0f ? static_cast<std::int32_t>(half_steps + 1.0f) / 2 : 255;
+  return static_cast<std::uint8_t>(whole_steps);
 }
 
 }  // namespace detail
