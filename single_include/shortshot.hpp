@@ -8,7 +8,8 @@
 //
 // The umbrella. On bare metal it is the kernel: no heap, no exceptions, no operating system. Where there is an
 // operating system it adds what allocates: extract() for many key points, sampling, a grid with memory of its own.
-// Include <nanoflann.hpp> or <Eigen/Core> BEFORE it and NanoflannSearch or view_eigen() are there as well.
+// Include <nanoflann.hpp> BEFORE it and NanoflannSearch is there as well; with <Eigen/Core>, view_eigen(), and on an
+// operating system matching, poses and the recogniser.
 
 // shortshot/adapters/point_cloud2.hpp: views of sensor_msgs/PointCloud2-shaped messages, without including ROS.
 
@@ -989,10 +990,20 @@ enum class [[nodiscard]] Status : std::uint8_t {
   bad_leaf,            ///< a voxel size is not a finite number above zero
   out_of_memory,       ///< caller-provided memory is too small for the cloud
   not_organized,       ///< the cloud is no image of a pinhole camera, so it has no image window to search
+  bad_rows,            ///< rows of descriptors that do not fit each other, or null pointers
+  bad_option,          ///< an option is outside of the range that its docstring gives
+  too_few_pairs,       ///< fewer than three correspondences
+  no_pose,             ///< no rigid motion that at least three correspondences agree on
+  not_trained,         ///< the recogniser has no training view with a descriptor
+  not_a_model,         ///< the bytes are no recogniser's
+  other_version,       ///< the model was written by a version with another format
+  other_descriptor,    ///< descriptors of another layout than the model was trained with
+  damaged_model,       ///< the model is truncated, or its checksum or contents are wrong
+  no_file,             ///< a file cannot be read or written
 };
 // clang-format on
 
-inline constexpr int status_count = static_cast<int>(Status::not_organized) + 1;
+inline constexpr int status_count = static_cast<int>(Status::no_file) + 1;
 
 inline namespace SHORTSHOT_ISA {
 
@@ -1015,6 +1026,16 @@ inline namespace SHORTSHOT_ISA {
     case Status::bad_leaf: return "a voxel size must be finite and above zero";
     case Status::out_of_memory: return "the memory provided is too small";
     case Status::not_organized: return "the cloud is not an image of a pinhole camera";
+    case Status::bad_rows: return "the rows of descriptors do not fit each other";
+    case Status::bad_option: return "an option is out of its range";
+    case Status::too_few_pairs: return "a pose takes three correspondences or more";
+    case Status::no_pose: return "no rigid motion fits three correspondences or more";
+    case Status::not_trained: return "the recogniser has no training view";
+    case Status::not_a_model: return "not a recogniser's model";
+    case Status::other_version: return "the model's format is of another version";
+    case Status::other_descriptor: return "the model was trained with another descriptor";
+    case Status::damaged_model: return "the model is damaged";
+    case Status::no_file: return "the file cannot be read or written";
   }
   return "unknown status";
 }
@@ -1169,6 +1190,14 @@ namespace detail {
 /// Coordinate 0, 1 or 2 of a point.
 [[nodiscard]] inline float coordinate(const Point& p, std::size_t axis) noexcept {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+/// Summed as (dx*dx + dy*dy) + dz*dz, like all distances here.
+[[nodiscard]] inline float squared_distance(const Point& a, const Point& b) noexcept {
+  const float dx = a.x - b.x;
+  const float dy = a.y - b.y;
+  const float dz = a.z - b.z;
+  return (rounded(dx * dx) + rounded(dy * dy)) + rounded(dz * dz);
 }
 
 /// The points of one register.
@@ -1824,7 +1853,8 @@ struct Lab {
 inline namespace SHORTSHOT_ISA {
 /// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
 struct PublishedLab {
-  static constexpr bool leaves_gamut = false;  ///< are there sRGB colours beyond -120..120 in a or b?
+  static constexpr const char* name = "published Lab";  ///< for layout_of()
+  static constexpr bool leaves_gamut = false;           ///< are there sRGB colours beyond -120..120 in a or b?
   /// Of a CIE ratio, 0 to 1.
   [[nodiscard]] static float root(float t) noexcept {
     return t > 0.008856f ? detail::published_root(t) : rounded(7.787f * t) + 16.0f / 116.0f;
@@ -1833,6 +1863,7 @@ struct PublishedLab {
 
 /// CIELAB by the formula of PCL's CSHOT: the cube root above the knee, 7.87 t + 16/116 below.
 struct CshotLab {
+  static constexpr const char* name = "CSHOT Lab";
   static constexpr bool leaves_gamut = false;
   [[nodiscard]] static float root(float t) noexcept {
     return t > 0.008856f ? detail::cube_root(t) : rounded(7.87f * t) + 16.0f / 116.0f;
@@ -1842,6 +1873,7 @@ struct CshotLab {
 /// The same as PCL's compiled code gives it: its table of roots ends before that of 1, where it reads a zero. White,
 /// the only colour with such a ratio, becomes L = -16, a = 120, b = -120.
 struct PclLab {
+  static constexpr const char* name = "PCL Lab";
   static constexpr bool leaves_gamut = true;
   [[nodiscard]] static float root(float t) noexcept { return t < 1.0f ? CshotLab::root(t) : 0.0f; }
 };
@@ -2144,6 +2176,7 @@ struct CellStrides {
 /// The cells of the published SSH / SCSH code: elevation from the frame's +z down, a border belongs to the cell above
 /// it, radius is laid out fastest and azimuth slowest, and a histogram has bins of equal width.
 struct PublishedCells {
+  static constexpr const char* name = "published cells";  ///< for layout_of()
   template <class Grid>
   static constexpr CellStrides strides{1, Grid::radial, Grid::radial* Grid::elevation};
   /// Values of a histogram of a signal's `bins`.
@@ -2170,6 +2203,7 @@ struct PublishedCells {
 /// neighbour at R / 2 to the inner shell, one at z = 0 to the lower half), histograms fastest, then elevation, radius
 /// and azimuth, and one value more than a histogram has bins, because those are the distances of their middles.
 struct ShotCells {
+  static constexpr const char* name = "SHOT cells";
   template <class Grid>
   static constexpr CellStrides strides{Grid::elevation, 1, Grid::radial* Grid::elevation};
   [[nodiscard]] static constexpr int values(int bins) noexcept { return bins + 1; }
@@ -2216,6 +2250,7 @@ struct SphericalGrid {
 
 /// Shells of equal width: the published default.
 struct LinearRadius {
+  static constexpr const char* name = "equal shells";  ///< for layout_of()
   static constexpr bool is_linear = true;
   static constexpr BelowZero below_zero = BelowZero::never;
   /// All borders and middles of shells are multiples of 1 / borders.
@@ -2228,6 +2263,7 @@ template <int Numerator = 1, int Denominator = 4>
 struct LogRadius {
   static_assert(0 < Numerator && 100LL * Numerator <= 99LL * Denominator,
                 "LogRadius<N, D> supports ratios 0 < N / D <= 0.99");
+  static constexpr const char* name = "logarithmic shells";
   static constexpr bool is_linear = false;
   static constexpr BelowZero below_zero = BelowZero::first_cell;
   static constexpr int borders(int) noexcept { return 1; }  // in float's own rounding
@@ -2368,6 +2404,7 @@ template <int Axes>
 /// * `FlipRadius`: the signal's partner also gets the radial PARTNER's share in place of the radial cell's.
 template <bool FlipRadius>
 struct AdditiveVoting {
+  static constexpr const char* name = FlipRadius ? "published voting" : "additive voting";  ///< for layout_of()
   static constexpr bool partners_get_own_share = false;
   static constexpr int weight_bits = 2;
   template <int Axes>
@@ -2413,6 +2450,7 @@ using PublishedVoting = AdditiveVoting<true>;
 /// one short: a vote from the last bin but one up to the last one goes to the first one instead.
 template <bool WrapLastBin>
 struct SeparateVoting {
+  static constexpr const char* name = WrapLastBin ? "PCL voting" : "SHOT voting";
   static constexpr bool partners_get_own_share = true;
   static constexpr int weight_bits = 3;  // half units
   template <int Axes>
@@ -2455,6 +2493,7 @@ using PclVoting = SeparateVoting<true>;  ///< equal to PCL to the last quirk: fo
 
 /// The paper's equation (2): a point counts once, in the cell it falls into.
 struct HardVoting {
+  static constexpr const char* name = "hard voting";
   static constexpr bool partners_get_own_share = false;
   static constexpr int weight_bits = 2;
   template <int Axes>
@@ -2475,6 +2514,7 @@ struct HardVoting {
 /// Multilinear interpolation: shares multiply, over all 2^N cells around the point. A partition of unity (every point
 /// counts exactly once in all: what has no partner stays in the cell) and continuous at every border between cells.
 struct MultilinearVoting {
+  static constexpr const char* name = "multilinear voting";
   static constexpr bool partners_get_own_share = false;
   static constexpr int weight_bits = 2;
   template <int Axes>
@@ -2517,6 +2557,7 @@ inline namespace SHORTSHOT_ISA {
 
 /// Signal of SSH: none. Every point counts as one, a cell holds a plain sum.
 struct Occupancy {
+  static constexpr const char* name = "occupancy";  ///< for layout_of()
   static constexpr bool has_histogram = false;
   static constexpr int bins = 1;
   static constexpr bool needs_colors = false;
@@ -2528,6 +2569,7 @@ struct Occupancy {
 template <int Bins>
 struct NormalCosine {
   static_assert(Bins >= 1 && Bins <= 1023, "NormalCosine<Bins> supports 1 to 1023 histogram bins");
+  static constexpr const char* name = "normal cosine";
   static constexpr bool has_histogram = true;
   static constexpr int bins = Bins;
   static constexpr bool needs_colors = false;
@@ -2540,6 +2582,7 @@ struct NormalCosine {
 template <int Bins, class LabRule = PublishedLab>
 struct ColorDistance {
   static_assert(Bins >= 1 && Bins <= 1024, "ColorDistance<Bins> supports 1 to 1024 histogram bins");
+  static constexpr const char* name = "colour distance";
   static constexpr bool has_histogram = true;
   static constexpr int bins = Bins;
   static constexpr bool needs_colors = true;
@@ -5927,6 +5970,140 @@ template <class D, class Color, class Search, class Threads = unsigned>
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
+// shortshot/layout.hpp: what the values of a descriptor mean, as text: for files, and for code that knows descriptors
+// only at run time. Hosted only: allocates.
+
+#include <numeric>
+#include <string>
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+template <class Policy, class = void>
+struct HasName : std::false_type {};
+template <class Policy>
+struct HasName<Policy, std::void_t<decltype(std::string(Policy::name))>> : std::true_type {};
+
+template <class Policy>
+[[nodiscard]] std::string name_of() {
+  static_assert(HasName<Policy>::value,
+                "layout_of<D>() supports policies with `static constexpr const char* name`, which must tell them from "
+                "all others");
+  return Policy::name;
+}
+
+/// What a radius scale's name leaves open.
+template <class Scale>
+struct ScaleParameters {
+  [[nodiscard]] static std::string text() { return {}; }
+};
+template <int Numerator, int Denominator>
+struct ScaleParameters<LogRadius<Numerator, Denominator>> {
+  [[nodiscard]] static std::string text() {
+    constexpr int common = std::gcd(Numerator, Denominator);
+    return " from " + std::to_string(Numerator / common) + '/' + std::to_string(Denominator / common);
+  }
+};
+
+template <class Signal>
+[[nodiscard]] std::string signal_text() {
+  std::string text = name_of<Signal>();
+  if constexpr (Signal::has_histogram) text += ' ' + std::to_string(Signal::bins) + " bins";
+  if constexpr (!std::is_void<typename Signal::Rule>::value) text += " (" + name_of<typename Signal::Rule>() + ')';
+  return text;
+}
+
+template <class Part>
+[[nodiscard]] std::string part_text() {
+  using Grid = typename Part::Grid;
+  using Scale = typename Part::Scale;
+  return signal_text<typename Part::Signal>() + ' ' + std::to_string(Grid::radial) + 'x' +
+         std::to_string(Grid::elevation) + 'x' + std::to_string(Grid::azimuth) + ' ' + name_of<Scale>() +
+         ScaleParameters<Scale>::text();
+}
+
+template <class Voting, class... Parts>
+[[nodiscard]] std::string layout_text(const Descriptor<Voting, Parts...>*) {
+  std::string text = name_of<Voting>() + ", " + name_of<typename Descriptor<Voting, Parts...>::Cells>();
+  const char* separator = ": ";
+  ((text += separator + part_text<Parts>(), separator = " | "), ...);
+  return text;
+}
+
+}  // namespace detail
+
+/// What the values of descriptor D mean and how they are laid out, in English and in ASCII: its voting rule, its cell
+/// convention, and for each part its signal, histogram bins, colour conversion, grid (radius x elevation x azimuth) and
+/// radius scale. SCSH-336:
+///
+///     published voting, published cells: occupancy 3x4x8 equal shells | colour distance 15 bins (published Lab) 2x2x4
+///     equal shells
+///
+/// (in one line). Two types with the same text have values that can be compared; two that differ in anything named here
+/// have different texts. What is no part of D is not in it: the radii, and how frames were turned. A policy of your own
+/// needs a `name` as those of the library have, which says everything about it, parameters included. Allocates.
+template <class D>
+[[nodiscard]] std::string layout_of() {
+  return detail::layout_text(static_cast<const D*>(nullptr));
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/rows.hpp: borrowed rows of descriptors, as matching and recognition take them. Hosted only.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// `count` descriptors of `size` floats each, row by row without gaps. Borrowed, like everything here.
+struct DescriptorRows {
+  const float* values;   ///< count * size
+  std::size_t count;     ///< number of rows
+  std::size_t size;      ///< floats in a row
+  const Status* status;  ///< one per row: those that are not ok are left out; null: all are ok
+};
+
+/// Descriptors with the places and frames that they were made at.
+struct FeatureRows {
+  DescriptorRows descriptors;
+  const KeyPoint* keypoints;  ///< one per row
+  const Frame* frames;        ///< one per row
+};
+
+/// The rows of extract()'s result; the features must outlive them.
+template <class D, class Color>
+[[nodiscard]] DescriptorRows rows_of(const Features<D, Color>& features) noexcept {
+  return {features.values.data(), features.size(), static_cast<std::size_t>(D::size), features.status.data()};
+}
+
+/// The same with the key points that extract() was given, of which there must be as many.
+template <class D, class Color>
+[[nodiscard]] FeatureRows rows_of(const Features<D, Color>& features, const std::vector<KeyPoint>& keypoints) noexcept {
+  return {rows_of(features), keypoints.size() == features.size() ? keypoints.data() : nullptr, features.frames.data()};
+}
+
+/// Can these rows be used: no null pointer where there are rows, and at least one value in each? ok or bad_rows.
+[[nodiscard]] inline Status check(const DescriptorRows& rows) noexcept {
+  return rows.size > 0 && (rows.count == 0 || rows.values != nullptr) ? Status::ok : Status::bad_rows;
+}
+
+[[nodiscard]] inline Status check(const FeatureRows& rows) noexcept {
+  const bool complete = rows.descriptors.count == 0 || (rows.keypoints != nullptr && rows.frames != nullptr);
+  return complete ? check(rows.descriptors) : Status::bad_rows;
+}
+
+namespace detail {
+
+[[nodiscard]] inline bool is_ok(const DescriptorRows& rows, std::size_t row) noexcept {
+  return rows.status == nullptr || rows.status[row] == Status::ok;
+}
+
+}  // namespace detail
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
 // shortshot/sample.hpp: uniform key points, one per occupied voxel. Hosted only: allocates.
 
 #include <cmath>
@@ -5934,47 +6111,103 @@ template <class D, class Color, class Search, class Threads = unsigned>
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// A valid point of a cloud in its voxel. Voxel numbers stay floats: whole numbers, exact up to 2^24 voxels from the
+/// origin, as the coordinates are.
+struct VoxelMember {
+  float voxel[3];
+  float place[3];  // in the voxel, from its corner, in voxels
+  float d2;        // to the voxel's centre, in voxels
+  std::uint32_t index;
+};
+
+[[nodiscard]] inline bool same_voxel(const VoxelMember& a, const VoxelMember& b) noexcept {
+  return a.voxel[0] == b.voxel[0] && a.voxel[1] == b.voxel[1] && a.voxel[2] == b.voxel[2];
+}
+
+/// All valid points, voxel after voxel, in each the one nearest to its centre first.
+[[nodiscard]] inline Status sort_into_voxels(const CloudView& cloud, float leaf, std::vector<VoxelMember>& members) {
+  const Status usable = check(cloud);
+  if (usable != Status::ok) return usable;
+  if (!math::is_finite(leaf) || !(leaf > 0.0f)) return Status::bad_leaf;
+  members.clear();
+  members.reserve(cloud.size);
+  for_each_valid(cloud, [&](std::size_t i, const Point& p) {
+    VoxelMember member{{}, {}, 0.0f, static_cast<std::uint32_t>(i)};
+    float from_center[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float position = coordinate(p, axis) / leaf;
+      member.voxel[axis] = std::floor(position);
+      member.place[axis] = position - member.voxel[axis];
+      from_center[axis] = member.place[axis] - 0.5f;
+    }
+    member.d2 = (rounded(from_center[0] * from_center[0]) + rounded(from_center[1] * from_center[1])) +
+                rounded(from_center[2] * from_center[2]);
+    members.push_back(member);
+  });
+  if (members.empty()) return Status::empty_cloud;
+  const auto key = [](const VoxelMember& m) { return std::tie(m.voxel[2], m.voxel[1], m.voxel[0], m.d2, m.index); };
+  std::sort(members.begin(), members.end(),
+            [&](const VoxelMember& a, const VoxelMember& b) { return key(a) < key(b); });
+  return Status::ok;
+}
+
+/// The centroid and the mean colour of one voxel's members.
+[[nodiscard]] inline KeyPoint centroid_of(const CloudView& cloud, float leaf, const VoxelMember* first,
+                                          const VoxelMember* end) noexcept {
+  const auto count = static_cast<std::uint32_t>(end - first);
+  float place[3] = {};
+  std::uint64_t rgb[3] = {};
+  for (const VoxelMember* member = first; member != end; ++member) {
+    for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += member->place[axis];
+    if (!has_colors(cloud)) continue;
+    const Rgb c = color(cloud, member->index);
+    rgb[0] += c.r;
+    rgb[1] += c.g;
+    rgb[2] += c.b;
+  }
+  const auto at = [&](std::size_t axis) {
+    return (first->voxel[axis] + place[axis] / static_cast<float>(count)) * leaf;
+  };
+  const auto mean = [&](std::size_t c) { return static_cast<std::uint8_t>((rgb[c] + count / 2) / count); };
+  return {{at(0), at(1), at(2)}, {mean(0), mean(1), mean(2)}};
+}
+
+}  // namespace detail
 
 /// One key point per voxel of `leaf` metres that holds a valid point: the point nearest to the voxel's centre (the one
 /// with the smaller index if two are as near). Voxels lie on a grid through the origin.
 /// `keypoints` receives indices into the cloud in ascending order. Statuses: empty_cloud (also if no point is valid),
-/// bad_view, bad_leaf. O(n log n); allocates 24 bytes a point; the same result on every machine.
+/// bad_view, bad_leaf. O(n log n); allocates 32 bytes a point; the same result on every machine.
 [[nodiscard]] inline Status sample_uniform(const CloudView& cloud, float leaf, std::vector<std::uint32_t>& keypoints) {
   keypoints.clear();
-  const Status usable = check(cloud);
-  if (usable != Status::ok) return usable;
-  if (!math::is_finite(leaf) || !(leaf > 0.0f)) return Status::bad_leaf;
-
-  // Voxel numbers stay floats: whole numbers, exact up to 2^24 voxels from the origin, as the coordinates are.
-  struct Candidate {
-    float voxel[3];
-    float d2;  // to the voxel's centre, in voxels
-    std::uint32_t index;
-  };
-  const auto key = [](const Candidate& c) { return std::tie(c.voxel[2], c.voxel[1], c.voxel[0], c.d2, c.index); };
-  std::vector<Candidate> candidates;
-  candidates.reserve(cloud.size);
-  for (std::size_t i = 0; i < cloud.size; ++i) {
-    const Point p = point(cloud, i);
-    if (!is_finite(p)) continue;
-    Candidate candidate{
-        {std::floor(p.x / leaf), std::floor(p.y / leaf), std::floor(p.z / leaf)}, 0.0f, static_cast<std::uint32_t>(i)};
-    const float dx = p.x / leaf - candidate.voxel[0] - 0.5f;
-    const float dy = p.y / leaf - candidate.voxel[1] - 0.5f;
-    const float dz = p.z / leaf - candidate.voxel[2] - 0.5f;
-    candidate.d2 = (rounded(dx * dx) + rounded(dy * dy)) + rounded(dz * dz);
-    candidates.push_back(candidate);
-  }
-  if (candidates.empty()) return Status::empty_cloud;
-
-  std::sort(candidates.begin(), candidates.end(),
-            [&](const Candidate& a, const Candidate& b) { return key(a) < key(b); });
-  const auto same_voxel = [](const Candidate& a, const Candidate& b) {
-    return a.voxel[0] == b.voxel[0] && a.voxel[1] == b.voxel[1] && a.voxel[2] == b.voxel[2];
-  };
-  const auto end = std::unique(candidates.begin(), candidates.end(), same_voxel);
-  for (auto c = candidates.begin(); c != end; ++c) keypoints.push_back(c->index);
+  std::vector<detail::VoxelMember> members;
+  const Status status = detail::sort_into_voxels(cloud, leaf, members);
+  if (status != Status::ok) return status;
+  const auto end = std::unique(members.begin(), members.end(), detail::same_voxel);
+  for (auto member = members.begin(); member != end; ++member) keypoints.push_back(member->index);
   std::sort(keypoints.begin(), keypoints.end());
+  return Status::ok;
+}
+
+/// The same with the centroid and the mean colour (black without colours) of each voxel's points: less noise than any
+/// one of them has, which pays most where the key point's colour is what colour distances refer to. Voxels by z, then
+/// y, then x.
+[[nodiscard]] inline Status sample_centroids(const CloudView& cloud, float leaf, std::vector<KeyPoint>& keypoints) {
+  keypoints.clear();
+  std::vector<detail::VoxelMember> members;
+  const Status status = detail::sort_into_voxels(cloud, leaf, members);
+  if (status != Status::ok) return status;
+  const detail::VoxelMember* const end = members.data() + members.size();
+  for (const detail::VoxelMember* first = members.data(); first != end;) {
+    const detail::VoxelMember* next = first + 1;
+    while (next != end && detail::same_voxel(*first, *next)) ++next;
+    const KeyPoint centroid = detail::centroid_of(cloud, leaf, first, next);
+    // Beyond the reach of voxel numbers a point stands for itself.
+    keypoints.push_back(is_finite(centroid.position) ? centroid : keypoint(cloud, first->index));
+    first = next;
+  }
   return Status::ok;
 }
 
@@ -6040,6 +6273,1206 @@ class GridSearch {
 
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
+#if defined(EIGEN_WORLD_VERSION)
+
+// shortshot/match.hpp: the nearest descriptors of another set, exactly, and pairs that are each other's nearest. Hosted
+// only: allocates, starts threads. Needs Eigen.
+//
+// |a - b|^2 = |a|^2 + |b|^2 - 2 ab makes of all distances one matrix product, two to six times as fast as sums of
+// squared differences (SSE2, AVX2), but cancellation costs it digits where rows are close. So the product only rules
+// out: where, by a bound on its rounding, a row may be nearer than the best so far, the distance is computed again as a
+// sum of squared differences, and that decides. In rows of no particular order that is so for about log(count) rows of
+// each query.
+
+#include <Eigen/Core>
+
+namespace shortshot {
+
+/// In place of a row's number where there is none.
+inline constexpr std::uint32_t no_row = 0xFFFFFFFFu;
+
+/// A row of the database and its distance (L2) from the query.
+struct Match {
+  std::uint32_t row;
+  float distance;
+};
+
+/// A row of each of two sets, and their distance (L2).
+struct Correspondence {
+  std::uint32_t source;
+  std::uint32_t target;
+  float distance;
+};
+
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// Rows of queries and of the database in one product: with fewer, more of the time goes into Eigen's packing.
+inline constexpr std::size_t product_rows = 128;
+inline constexpr std::size_t product_columns = 1024;
+
+using Products = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// More than twice any squared distance; finite, so that nothing here depends on how infinities compare.
+inline constexpr float out_of_reach = std::numeric_limits<float>::max();
+
+/// In eight sums, whatever the number of lanes, for the same bits on every machine.
+[[nodiscard]] inline float squared_distance(const float* a, const float* b, std::size_t size) noexcept {
+  constexpr std::size_t width = 8;
+  static_assert(width % simd::lanes == 0, "whole registers");
+  simd::F32 lanes[width / simd::lanes] = {};
+  const auto add = [&lanes](const float* x, const float* y) {
+    for (std::size_t k = 0; k < width; k += simd::lanes) {
+      const simd::F32 difference = simd::load(x + k) - simd::load(y + k);
+      lanes[k / simd::lanes] = lanes[k / simd::lanes] + difference * difference;
+    }
+  };
+  const std::size_t whole = size - size % width;
+  for (std::size_t i = 0; i < whole; i += width) add(a + i, b + i);
+  float rest[2][width] = {};
+  std::copy(a + whole, a + size, rest[0]);
+  std::copy(b + whole, b + size, rest[1]);
+  add(rest[0], rest[1]);
+  float sums[width];
+  for (std::size_t k = 0; k < width; k += simd::lanes) simd::store(sums + k, lanes[k / simd::lanes]);
+  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+}
+
+/// Rows with half of their squared norms, each less its share of the rounding: half_norm(a) + half_norm(b) - (the
+/// product ab) is not above half of squared_distance(a, b), in whatever order the product was summed up.
+///
+/// A sum of n products errs by n 2^-24 |a| |b| at most (to first order), hence the two norms and twice the product
+/// together by 2 n 2^-24 (|a|^2 + |b|^2), and squared_distance(), which is not above 2 (|a|^2 + |b|^2), by as much
+/// again. 5 instead of 4 makes up for higher orders, 16 for the few other operations, min() for squares that underflow.
+class ComparedRows {
+ public:
+  explicit ComparedRows(const DescriptorRows& rows) : rows_(rows), half_norms_(rows.count, out_of_reach) {
+    const auto size = static_cast<float>(rows.size);
+    const float kept = 1.0f - 5.0f * (size + 16.0f) * (1.0f / 16777216.0f);
+    const float underflow = size * std::numeric_limits<float>::min();
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      if (!is_ok(rows, i)) continue;
+      const float norm = block(i, i + 1).squaredNorm();
+      if (math::is_finite(8.0f * norm)) half_norms_[i] = 0.5f * kept * norm - underflow;
+    }
+  }
+
+  [[nodiscard]] std::size_t count() const noexcept { return rows_.count; }
+  [[nodiscard]] float half_norm(std::size_t row) const noexcept { return half_norms_[row]; }
+  [[nodiscard]] bool takes_part(std::size_t row) const noexcept { return half_norms_[row] < out_of_reach; }
+
+  [[nodiscard]] Eigen::Map<const Products> block(std::size_t begin, std::size_t end) const noexcept {
+    return {at(begin), static_cast<Eigen::Index>(end - begin), static_cast<Eigen::Index>(rows_.size)};
+  }
+  [[nodiscard]] float squared_distance_to(const ComparedRows& other, std::size_t row,
+                                          std::size_t others_row) const noexcept {
+    return squared_distance(at(row), other.at(others_row), rows_.size);
+  }
+
+ private:
+  [[nodiscard]] const float* at(std::size_t row) const noexcept { return rows_.values + row * rows_.size; }
+
+  DescriptorRows rows_;
+  std::vector<float> half_norms_;
+};
+
+/// ok or bad_rows.
+[[nodiscard]] inline Status check_comparable(const DescriptorRows& a, const DescriptorRows& b) noexcept {
+  const bool numbered = a.count < no_row && b.count < no_row;
+  return check(a) == Status::ok && check(b) == Status::ok && a.size == b.size && numbered ? Status::ok
+                                                                                          : Status::bad_rows;
+}
+
+/// Shares blocks of queries among threads. compare(thread, q, first, last, products) is called for each query that
+/// takes part, with its products with rows [first, last) of the database; one thread gets queries, and rows, in
+/// ascending order.
+template <class Executor, class Compare>
+void for_products(Executor& executor, std::size_t team, const ComparedRows& queries, const ComparedRows& database,
+                  const Compare& compare) {
+  const auto rows = static_cast<Eigen::Index>(std::min(queries.count(), product_rows));
+  const auto columns = static_cast<Eigen::Index>(std::min(database.count(), product_columns));
+  std::vector<Products> memory(team, Products(rows, columns));
+  const auto compare_block = [&](std::size_t thread, std::size_t begin, std::size_t end) {
+    Products& products = memory[thread];
+    for (std::size_t first = 0; first < database.count(); first += product_columns) {
+      const std::size_t last = std::min(first + product_columns, database.count());
+      products.topLeftCorner(static_cast<Eigen::Index>(end - begin), static_cast<Eigen::Index>(last - first))
+          .noalias() = queries.block(begin, end) * database.block(first, last).transpose();
+      for (std::size_t q = begin; q < end; ++q) {
+        if (!queries.takes_part(q)) continue;
+        compare(thread, q, first, last, &products(static_cast<Eigen::Index>(q - begin), 0));
+      }
+    }
+  };
+  for_blocks(executor, team, queries.count(), product_rows, compare_block);
+}
+
+/// Puts a match that is nearer than the last of k, which are in ascending order, behind those that are as near.
+inline void insert(Match* best, std::size_t k, const Match& match) noexcept {
+  std::size_t at = k - 1;
+  for (; at > 0 && match.distance < best[at - 1].distance; --at) best[at] = best[at - 1];
+  best[at] = match;
+}
+
+/// The nearest match of each row among those that the threads have seen.
+[[nodiscard]] inline std::vector<Match> nearest_of_all(const std::vector<std::vector<Match>>& seen) {
+  std::vector<Match> best = seen.front();
+  for (const std::vector<Match>& matches : seen) {
+    for (std::size_t i = 0; i < best.size(); ++i) {
+      const Match& match = matches[i];
+      const bool nearer = match.distance < best[i].distance;
+      if (nearer || (match.distance == best[i].distance && match.row < best[i].row)) best[i] = match;
+    }
+  }
+  return best;
+}
+
+}  // namespace detail
+
+/// The k nearest rows of the database for each query, nearest first; of rows at the same distance the first ones come
+/// first. Exact: as if all distances were computed as sums of squared differences in float, in a fixed order.
+///
+/// `k`        from 1 on; meant to be small (an insertion costs O(k))
+/// `out`      queries.count * k: those of query i from out[i * k] on. {no_row, infinity} where the database has too few
+///            rows that take part, or where the query does not. A row takes part if its status is ok and its squared
+///            norm is finite and below 4e37
+/// `threads`  how many threads share the work, or an executor (see extract()); the result is the same, bit for bit, for
+///            any number, and on every machine
+///
+/// Statuses: bad_rows (null pointers, rows of different or no length, 2^32 - 1 rows or more), bad_option (k, or more
+/// results than memory has room for); `out` is empty then. O(queries.count * database.count * size), at the speed of
+/// Eigen's matrix product; a database in the order of falling distances, or of copies, costs a sum of squared
+/// differences for each pair on top of it. Allocates `out`, 4 bytes for each row of both, and for each thread 128 x
+/// 1024 products (512 KB) and Eigen's copies of the factors (below 5 KB for each value of a row). May throw what
+/// extract() may. In programs that are compiled with -fopenmp, Eigen starts threads of its own unless
+/// Eigen::setNbThreads(1) was called.
+template <class Threads = unsigned>
+[[nodiscard]] Status nearest(const DescriptorRows& queries, const DescriptorRows& database, std::size_t k,
+                             std::vector<Match>& out, Threads&& threads = 1u) {
+  out.clear();
+  const Status usable = detail::check_comparable(queries, database);
+  if (usable != Status::ok) return usable;
+  if (k == 0 || queries.count > out.max_size() / k) return Status::bad_option;
+
+  out.assign(queries.count * k, {no_row, detail::out_of_reach});
+  const detail::ComparedRows from(queries);
+  const detail::ComparedRows to(database);
+  auto&& executor = detail::executor_of(threads, (queries.count + detail::product_rows - 1) / detail::product_rows);
+  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
+  const auto compare = [&](std::size_t, std::size_t q, std::size_t first, std::size_t last, const float* products) {
+    Match* const best = out.data() + q * k;
+    const float& worst = best[k - 1].distance;
+    for (std::size_t row = first; row < last; ++row) {
+      const float half_distance = (from.half_norm(q) - products[row - first]) + to.half_norm(row);
+      if (!(half_distance < 0.5f * worst)) continue;
+      const float distance = from.squared_distance_to(to, q, row);
+      if (distance < worst) detail::insert(best, k, {static_cast<std::uint32_t>(row), distance});
+    }
+  };
+  detail::for_products(executor, team, from, to, compare);
+  for (Match& match : out) {
+    match.distance = match.row == no_row ? std::numeric_limits<float>::infinity() : simd::root(match.distance);
+  }
+  return Status::ok;
+}
+
+/// The pairs of rows that are each other's nearest neighbour as nearest() has it, in ascending order of the source: one
+/// pass over the products gives both directions.
+///
+/// `threads`, statuses, the rows that take part, cost and memory: as for nearest(). Allocates 8 bytes more for each row
+/// of the source, and for each row of the target and each thread.
+template <class Threads = unsigned>
+[[nodiscard]] Status reciprocal_correspondences(const DescriptorRows& source, const DescriptorRows& target,
+                                                std::vector<Correspondence>& out, Threads&& threads = 1u) {
+  out.clear();
+  const Status usable = detail::check_comparable(source, target);
+  if (usable != Status::ok) return usable;
+
+  const detail::ComparedRows from(source);
+  const detail::ComparedRows to(target);
+  auto&& executor = detail::executor_of(threads, (source.count + detail::product_rows - 1) / detail::product_rows);
+  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
+  const Match none{no_row, detail::out_of_reach};
+  std::vector<Match> of_source(source.count, none);
+  std::vector<std::vector<Match>> of_target(team, std::vector<Match>(target.count, none));  // what each thread has seen
+  const auto compare = [&](std::size_t thread, std::size_t s, std::size_t first, std::size_t last,
+                           const float* products) {
+    Match& nearest_target = of_source[s];
+    Match* const nearest_source = of_target[thread].data();
+    for (std::size_t t = first; t < last; ++t) {
+      const float half_distance = (from.half_norm(s) - products[t - first]) + to.half_norm(t);
+      if (!(half_distance < 0.5f * std::max(nearest_target.distance, nearest_source[t].distance))) continue;
+      const float distance = from.squared_distance_to(to, s, t);
+      if (distance < nearest_target.distance) nearest_target = {static_cast<std::uint32_t>(t), distance};
+      if (distance < nearest_source[t].distance) nearest_source[t] = {static_cast<std::uint32_t>(s), distance};
+    }
+  };
+  detail::for_products(executor, team, from, to, compare);
+  const std::vector<Match> sources = detail::nearest_of_all(of_target);
+  for (std::size_t s = 0; s < source.count; ++s) {
+    const Match& match = of_source[s];
+    if (match.row == no_row || sources[match.row].row != s) continue;
+    out.push_back({static_cast<std::uint32_t>(s), match.row, simd::root(match.distance)});
+  }
+  return Status::ok;
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/pose.hpp: the rigid motion that takes points to their correspondences, by least squares, and by RANSAC
+// where some correspondences are wrong. Hosted only: allocates. Needs Eigen.
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <random>
+
+namespace shortshot {
+
+/// A rigid motion: target = rotation * source + translation, in metres. Trivial type.
+struct Pose {
+  float rotation[9];  ///< row by row; orthonormal, determinant +1
+  float translation[3];
+};
+
+/// Two points that may be the same one of an object, before and after its motion.
+struct PointPair {
+  Point source;
+  Point target;
+};
+
+/// Options of estimate_pose().
+struct RansacOptions {
+  std::uint32_t iterations = 5000;  ///< samples of three pairs, from 1 on
+  float inlier_distance = 0.01f;    ///< metres between target and moved source; above 0, and its square a normal float
+  float edge_similarity = 0.9f;     ///< 0 to 1: samples with an edge whose lengths differ by more are skipped
+  std::uint32_t seed = 1;           ///< of the samples' sequence
+};
+
+inline namespace SHORTSHOT_ISA {
+
+/// Where a motion takes a point.
+[[nodiscard]] inline Point apply(const Pose& pose, const Point& p) noexcept {
+  const auto component = [&](std::size_t row) {
+    const float* const r = pose.rotation + 3 * row;
+    return ((rounded(r[0] * p.x) + rounded(r[1] * p.y)) + rounded(r[2] * p.z)) + pose.translation[row];
+  };
+  return {component(0), component(1), component(2)};
+}
+
+/// ok or bad_option.
+[[nodiscard]] inline Status check(const RansacOptions& options) noexcept {
+  const bool similarity =
+      math::is_finite(options.edge_similarity) && options.edge_similarity >= 0.0f && options.edge_similarity <= 1.0f;
+  const bool distance = check(Radius(options.inlier_distance)) == Status::ok;
+  return options.iterations > 0 && similarity && distance ? Status::ok : Status::bad_option;
+}
+
+namespace detail {
+
+// What needs Eigen's solver is a template, also where one type would do: its instantiation takes a compiler seconds,
+// for which only those shall wait who ask for a pose.
+
+/// ok, too_few_pairs or invalid_keypoint.
+template <class Pairs>
+[[nodiscard]] Status check_pairs(const Pairs& pairs) noexcept {
+  if (pairs.size() < 3) return Status::too_few_pairs;
+  const bool finite = std::all_of(pairs.begin(), pairs.end(), [](const PointPair& pair) {
+    return is_finite(pair.source) && is_finite(pair.target);
+  });
+  return finite ? Status::ok : Status::invalid_keypoint;
+}
+
+[[nodiscard]] inline Eigen::Vector3f vector(const Point& p) noexcept { return {p.x, p.y, p.z}; }
+
+/// The mean of some points. Offsets from the first are summed up: clouds may lie far from the origin.
+template <class PointAt>
+[[nodiscard]] Eigen::Vector3f centroid(std::size_t count, const PointAt& point_at) noexcept {
+  const Eigen::Vector3f first = point_at(0);
+  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
+  for (std::size_t i = 1; i < count; ++i) sum += point_at(i) - first;
+  return first + sum / static_cast<float>(count);
+}
+
+/// The matrix whose quadratic form of a unit quaternion (w, x, y, z) says how well this rotation aligns points with a
+/// given covariance, source by target (Horn 1987). Only its lower triangle.
+template <class Covariance>
+[[nodiscard]] Eigen::Matrix4f alignment(const Covariance& c) noexcept {
+  Eigen::Matrix4f m = Eigen::Matrix4f::Zero();
+  m(0, 0) = c(0, 0) + c(1, 1) + c(2, 2);
+  m(1, 1) = c(0, 0) - c(1, 1) - c(2, 2);
+  m(2, 2) = c(1, 1) - c(0, 0) - c(2, 2);
+  m(3, 3) = c(2, 2) - c(0, 0) - c(1, 1);
+  m(1, 0) = c(1, 2) - c(2, 1);
+  m(2, 0) = c(2, 0) - c(0, 2);
+  m(3, 0) = c(0, 1) - c(1, 0);
+  m(2, 1) = c(0, 1) + c(1, 0);
+  m(3, 1) = c(2, 0) + c(0, 2);
+  m(3, 2) = c(1, 2) + c(2, 1);
+  return m;
+}
+
+/// Least squares for three pairs or more, all finite.
+template <class Pairs>
+[[nodiscard]] Status align(const Pairs& pairs, Pose& pose) noexcept {
+  pose = Pose{};
+  const std::size_t count = pairs.size();
+  const auto source_at = [&](std::size_t i) { return vector(pairs[i].source); };
+  const auto target_at = [&](std::size_t i) { return vector(pairs[i].target); };
+  const Eigen::Vector3f source = centroid(count, source_at);
+  const Eigen::Vector3f target = centroid(count, target_at);
+  Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
+  for (std::size_t i = 0; i < count; ++i) covariance += (source_at(i) - source) * (target_at(i) - target).transpose();
+  const float scale = covariance.cwiseAbs().sum();
+  if (!math::is_finite(scale) || !(scale >= std::numeric_limits<float>::min())) return Status::no_pose;
+
+  // Two rotations that align equally well: points on a line, or the mirror image of something symmetric.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4f> solver(alignment(covariance / scale));
+  const Eigen::Vector4f& quality = solver.eigenvalues();
+  constexpr float tolerance = 1e-5f;  // a hundred times float's rounding
+  if (!(quality[3] - quality[2] > tolerance * quality[3])) return Status::no_pose;
+
+  const Eigen::Vector4f q = solver.eigenvectors().col(3);
+  const Eigen::Matrix3f rotation = Eigen::Quaternionf(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  const Eigen::Vector3f translation = target - rotation * source;
+  if (!math::is_finite(translation.cwiseAbs().sum())) return Status::no_pose;
+  Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(pose.rotation) = rotation;
+  Eigen::Map<Eigen::Vector3f>(pose.translation) = translation;
+  return Status::ok;
+}
+
+/// Samples of three different numbers below `count`, from 3 on: the same on every machine, which the standard library's
+/// distributions are not.
+class Samples {
+ public:
+  Samples(std::uint32_t seed, std::size_t count) : engine_(seed), count_(count) {}
+
+  [[nodiscard]] std::array<std::size_t, 3> draw() {
+    const std::size_t a = below(count_);
+    std::size_t b = below(count_ - 1);
+    b += b >= a ? 1 : 0;
+    std::size_t c = below(count_ - 2);
+    c += c >= std::min(a, b) ? 1 : 0;
+    c += c >= std::max(a, b) ? 1 : 0;
+    return {a, b, c};
+  }
+
+ private:
+  [[nodiscard]] std::size_t below(std::size_t n) {
+    return static_cast<std::size_t>((std::uint64_t{engine_()} * n) >> 32);
+  }
+
+  std::mt19937 engine_;
+  std::size_t count_;
+};
+
+/// Has each edge about the same length in source and target? Motions keep lengths, so that most samples with a wrong
+/// pair are found out here, for a hundredth of the cost.
+[[nodiscard]] inline bool has_similar_edges(const std::array<PointPair, 3>& sample, float similarity) noexcept {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const PointPair& a = sample[i];
+    const PointPair& b = sample[(i + 1) % 3];
+    const float source = squared_distance(a.source, b.source);
+    const float target = squared_distance(a.target, b.target);
+    if (!(std::min(source, target) >= similarity * similarity * std::max(source, target))) return false;
+  }
+  return true;
+}
+
+/// Pairs, and how near to its target a motion must take a source.
+template <class Pairs>
+struct Consensus {
+  const Pairs& pairs;
+  Radius reach;
+
+  [[nodiscard]] bool agrees(const Pose& pose, const PointPair& pair) const noexcept {
+    return squared_distance(pair.target, apply(pose, pair.source)) < reach.squared;
+  }
+  [[nodiscard]] std::size_t count(const Pose& pose) const noexcept {
+    return static_cast<std::size_t>(
+        std::count_if(pairs.begin(), pairs.end(), [&](const PointPair& pair) { return agrees(pose, pair); }));
+  }
+  void find(const Pose& pose, std::vector<std::uint32_t>& inliers) const {
+    inliers.clear();
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      if (agrees(pose, pairs[i])) inliers.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+
+  /// Fits the pose to its inliers, and again while their number grows.
+  void refine(Pose& pose, std::vector<std::uint32_t>& inliers) const {
+    constexpr int most_fits = 5;
+    std::vector<PointPair> agreeing;
+    std::vector<std::uint32_t> refined_inliers;
+    bool grows = true;
+    for (int fit = 0; fit < most_fits && grows; ++fit) {
+      agreeing.clear();
+      for (const std::uint32_t i : inliers) agreeing.push_back(pairs[i]);
+      Pose refined;
+      if (align(agreeing, refined) != Status::ok) return;
+      find(refined, refined_inliers);
+      if (refined_inliers.size() < inliers.size()) return;
+      grows = refined_inliers.size() > inliers.size();
+      pose = refined;
+      inliers.swap(refined_inliers);
+    }
+  }
+};
+
+}  // namespace detail
+
+/// The rigid motion with the least sum of squared distances between targets and moved sources: Kabsch's problem, solved
+/// with quaternions, so that a reflection is never an answer (B. Horn, "Closed-form solution of absolute orientation
+/// using unit quaternions", 1987).
+///
+/// `pairs`   PointPairs, all of the same weight: a std::vector, a std::array or the like
+///
+/// Statuses: too_few_pairs (fewer than three), invalid_keypoint (a coordinate is not finite), no_pose (all points on a
+/// line, or squares outside of float's range). `pose` is all zeros then. O(pairs); allocates nothing.
+template <class Pairs>
+[[nodiscard]] Status fit_pose(const Pairs& pairs, Pose& pose) noexcept {
+  pose = Pose{};
+  const Status usable = detail::check_pairs(pairs);
+  return usable == Status::ok ? detail::align(pairs, pose) : usable;
+}
+
+/// The rigid motion that most of the pairs agree on, others being wrong: RANSAC (Fischler and Bolles 1981) over samples
+/// of three whose edges have similar lengths, then a least-squares fit to the inliers, repeated while their number
+/// grows.
+///
+/// `pairs`     up to 2^32 - 1 PointPairs: a std::vector, a std::array or the like
+/// `inliers`   numbers of the pairs that the pose takes closer to their targets than the inlier distance, ascending.
+///             Three pairs often agree by chance: judge a pose by how many they are
+///
+/// The samples are the same for a seed on every machine, and the pose but for the rounding of Eigen's arithmetic.
+///
+/// Statuses: bad_option, too_few_pairs (fewer than three), invalid_keypoint (a coordinate is not finite), no_pose (no
+/// sample has a pose that three pairs agree on). `pose` is all zeros and `inliers` empty then. O(iterations * pairs) at
+/// worst. Allocates the inliers, twice, and a copy of their pairs. Calls may run at the same time.
+template <class Pairs>
+[[nodiscard]] Status estimate_pose(const Pairs& pairs, const RansacOptions& options, Pose& pose,
+                                   std::vector<std::uint32_t>& inliers) {
+  pose = Pose{};
+  inliers.clear();
+  Status usable = check(options);
+  if (usable == Status::ok) usable = detail::check_pairs(pairs);
+  if (usable != Status::ok) return usable;
+
+  const detail::Consensus<Pairs> consensus{pairs, options.inlier_distance};
+  detail::Samples samples(options.seed, pairs.size());
+  Pose best{};
+  std::size_t most = 0;
+  for (std::uint32_t iteration = 0; iteration < options.iterations; ++iteration) {
+    const auto index = samples.draw();
+    const std::array<PointPair, 3> sample{pairs[index[0]], pairs[index[1]], pairs[index[2]]};
+    Pose candidate;
+    if (!detail::has_similar_edges(sample, options.edge_similarity)) continue;
+    if (detail::align(sample, candidate) != Status::ok) continue;
+    const std::size_t agreeing = consensus.count(candidate);
+    if (agreeing <= most) continue;
+    most = agreeing;
+    best = candidate;
+  }
+  if (most < 3) return Status::no_pose;
+  pose = best;
+  consensus.find(pose, inliers);
+  consensus.refine(pose, inliers);
+  return Status::ok;
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/recognizer.hpp: which objects are where: an implicit shape model, whose descriptors vote for the centres of
+// objects. Hosted only: allocates, starts threads. Needs Eigen.
+//
+// After B. Leibe, A. Leonardis, B. Schiele: Robust object detection with interleaved categorization and segmentation
+// (IJCV 77, 2008), with local reference frames in 3-D as in F. Tombari, L. Di Stefano: Object recognition in 3D scenes
+// with occlusions and clutter by Hough voting (PSIVT 2010).
+
+#include <string_view>
+
+// shortshot/codebook.hpp: what a recogniser has learnt. Hosted only: allocates.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+[[nodiscard]] inline bool is_finite(const float* values, std::size_t count) noexcept {
+  return std::all_of(values, values + count, [](float value) { return math::is_finite(value); });
+}
+
+/// Rows that there are, and descriptors that can be compared: all of their values are finite. ok or bad_rows.
+[[nodiscard]] inline Status check_values(const DescriptorRows& rows) noexcept {
+  Status status = check(rows);
+  for (std::size_t row = 0; row < rows.count && status == Status::ok; ++row) {
+    if (is_ok(rows, row) && !is_finite(rows.values + row * rows.size, rows.size)) status = Status::bad_rows;
+  }
+  return status;
+}
+
+/// The same, with places and frames that one can cast a vote from: also invalid_keypoint and bad_frame.
+[[nodiscard]] inline Status check_values(const FeatureRows& rows) noexcept {
+  Status status = check(rows);
+  if (status == Status::ok) status = check_values(rows.descriptors);
+  for (std::size_t row = 0; row < rows.descriptors.count && status == Status::ok; ++row) {
+    if (!is_ok(rows.descriptors, row)) continue;
+    status = is_finite(rows.keypoints[row].position) ? check(rows.frames[row]) : Status::invalid_keypoint;
+  }
+  return status;
+}
+
+/// A point in a frame's coordinates, and back.
+[[nodiscard]] inline Point to_local(const Point& p, const Point& origin, const Frame& frame) noexcept {
+  const float offset[3] = {p.x - origin.x, p.y - origin.y, p.z - origin.z};
+  return {dot(frame.x, offset), dot(frame.y, offset), dot(frame.z, offset)};
+}
+[[nodiscard]] inline Point from_local(const Point& p, const Point& origin, const Frame& frame) noexcept {
+  const auto component = [&](int k) {
+    return (rounded(p.x * frame.x[k]) + rounded(p.y * frame.y[k])) + rounded(p.z * frame.z[k]);
+  };
+  return {origin.x + component(0), origin.y + component(1), origin.z + component(2)};
+}
+
+/// Every descriptor of a training view is a codeword.
+struct Codebook {
+  struct Instance {
+    std::uint32_t object_class;
+    std::string name;
+  };
+  struct Codeword {
+    std::uint32_t instance;
+    Point center;  // of the training view, in the key point's frame
+  };
+
+  std::string layout;
+  std::size_t row_size = 0;
+  std::vector<std::string> classes;
+  std::vector<Instance> instances;
+  std::vector<Codeword> codewords;
+  std::vector<float> values;  // codewords.size() * row_size
+
+  [[nodiscard]] DescriptorRows rows() const noexcept { return {values.data(), codewords.size(), row_size, nullptr}; }
+
+  /// Are these the descriptors that it was made of?
+  [[nodiscard]] Status fits(const DescriptorRows& queries, std::string_view layout_of_queries) const noexcept {
+    if (codewords.empty()) return Status::not_trained;
+    return queries.size == row_size && layout_of_queries == layout ? Status::ok : Status::other_descriptor;
+  }
+
+  /// The number of a class, or of an instance; a new one if there is none of that name.
+  [[nodiscard]] std::uint32_t class_number(std::string_view name) {
+    const auto found = std::find(classes.begin(), classes.end(), name);
+    const auto number = static_cast<std::uint32_t>(found - classes.begin());
+    if (found == classes.end()) classes.emplace_back(name);
+    return number;
+  }
+  [[nodiscard]] std::uint32_t instance_number(std::uint32_t object_class, std::string_view name) {
+    const auto found = std::find_if(instances.begin(), instances.end(), [&](const Instance& instance) {
+      return instance.object_class == object_class && instance.name == name;
+    });
+    const auto number = static_cast<std::uint32_t>(found - instances.begin());
+    if (found == instances.end()) instances.push_back({object_class, std::string(name)});
+    return number;
+  }
+
+  /// Adds the rows, which were checked, of an object of which `center` is the centre. All or nothing.
+  [[nodiscard]] Status add(const FeatureRows& rows, const Point& center, std::string_view object_class,
+                           std::string_view instance) {
+    const DescriptorRows& descriptors = rows.descriptors;
+    std::vector<Point> centers(descriptors.count);
+    std::size_t added = 0;
+    for (std::size_t row = 0; row < descriptors.count; ++row) {
+      if (!is_ok(descriptors, row)) continue;
+      centers[row] = to_local(center, rows.keypoints[row].position, rows.frames[row]);
+      if (!shortshot::is_finite(centers[row])) return Status::invalid_keypoint;  // farther away than floats reach
+      ++added;
+    }
+    if (added == 0) return Status::ok;
+    if (added >= no_row - codewords.size()) return Status::bad_rows;
+
+    const std::uint32_t number = instance_number(class_number(object_class), instance);
+    for (std::size_t row = 0; row < descriptors.count; ++row) {
+      if (!is_ok(descriptors, row)) continue;
+      const float* from = descriptors.values + row * descriptors.size;
+      values.insert(values.end(), from, from + descriptors.size);
+      codewords.push_back({number, centers[row]});
+    }
+    return Status::ok;
+  }
+};
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/mean_shift.hpp: the maxima of a density of votes in space.
+//
+// After D. Comaniciu, P. Meer: Mean shift: A robust approach toward feature space analysis (PAMI 24, 2002), with a
+// Gaussian kernel.
+
+#include <initializer_list>
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// e^-t, for t from 0 to 80: within 3e-7 of it, relatively, and the same on every machine, as libm's is not.
+[[nodiscard]] inline float exp_minus(float t) noexcept {
+  const auto halvings = (static_cast<std::int32_t>(t * 2.88539008f) + 1) / 2;  // t / ln 2, to the nearest
+  const auto n = static_cast<float>(halvings);
+  const float r = (rounded(n * 0.693359375f) - t) - rounded(n * 2.12194440e-4f);  // ln 2 in two parts; |r| <= ln 2 / 2
+  float sum = 1.0f / 720.0f;
+  for (const float c : {1.0f / 120.0f, 1.0f / 24.0f, 1.0f / 6.0f, 0.5f, 1.0f, 1.0f}) sum = c + rounded(r * sum);
+  return rounded(sum * math::float_of(static_cast<std::uint32_t>(127 - halvings) << 23));
+}
+
+/// A vote for an object's centre.
+struct Vote {
+  Point center;
+  std::uint32_t object_class;
+  std::uint32_t instance;
+};
+
+/// A place and how dense votes are there.
+struct Peak {
+  Point at;
+  float density;
+};
+
+/// The density of votes (finite, borrowed, of one class): the sum of exp(-d^2 / (2 h^2)) over their distances d, with h
+/// the bandwidth.
+class VoteDensity {
+ public:
+  VoteDensity(const Vote* begin, const Vote* end, float bandwidth) noexcept
+      : begin_(begin),
+        end_(end),
+        reach_d2_(reach * reach * bandwidth * bandwidth),
+        still_d2_(still * still * bandwidth * bandwidth),
+        factor_(0.5f / (bandwidth * bandwidth)) {}
+
+  [[nodiscard]] const Vote* begin() const noexcept { return begin_; }
+  [[nodiscard]] const Vote* end() const noexcept { return end_; }
+
+  /// What a vote adds to the density at a place.
+  [[nodiscard]] float weight(const Vote& vote, const Point& at) const noexcept {
+    const float d2 = squared_distance(vote.center, at);
+    return d2 < reach_d2_ ? exp_minus(rounded(factor_ * d2)) : 0.0f;
+  }
+
+  /// The maximum where the mean shift from a vote ends: one look at all votes for each of at most 100 steps.
+  [[nodiscard]] Peak climb(const Vote& vote) const noexcept {
+    Peak peak{vote.center, 0.0f};
+    Point at = vote.center;
+    for (int step = 0; step < most_steps; ++step) {
+      float density = 0.0f;
+      Point shift{};  // of differences, not of positions: no loss far away from the origin
+      for (const Vote& other : *this) {
+        const float w = weight(other, at);
+        if (w == 0.0f) continue;
+        density += w;
+        shift.x += rounded(w * (other.center.x - at.x));
+        shift.y += rounded(w * (other.center.y - at.y));
+        shift.z += rounded(w * (other.center.z - at.z));
+      }
+      if (!(density > peak.density)) break;  // it grows, but for rounding, from the 1 that the vote itself makes it
+      peak = {at, density};
+      at = {at.x + shift.x / density, at.y + shift.y / density, at.z + shift.z / density};
+      if (!(squared_distance(at, peak.at) > still_d2_)) break;
+    }
+    return peak;
+  }
+
+ private:
+  static constexpr float reach = 6.0f;   // in bandwidths; the weight of a vote that far away is lost next to a 1
+  static constexpr float still = 1e-3f;  // a shift that ends the climb, in bandwidths
+  static constexpr int most_steps = 100;
+
+  const Vote* begin_;
+  const Vote* end_;
+  float reach_d2_;
+  float still_d2_;
+  float factor_;
+};
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+namespace shortshot {
+
+struct RecognizerOptions {
+  float bandwidth = 0.03f;      ///< h of the density of votes, 1e-6 to 1e6 metres: about how far votes miss the centre
+  std::uint32_t neighbors = 1;  ///< nearest codewords that each descriptor activates, 1 to 1024
+  std::uint32_t most = 8;       ///< hypotheses at the most, from 1 on
+};
+
+/// An object that may be there; see Recognizer::class_name() and instance_name() for the numbers. Trivial type.
+struct Hypothesis {
+  std::uint32_t object_class;
+  std::uint32_t instance;
+  Point center;  ///< where that of the training views is in this view
+  float score;   ///< density of the class' votes there: 1 for each that hits it, exp(-d^2 / (2 h^2)) if d metres off
+};
+
+/// The share that each class, and each instance, has in the codewords that were activated: 0 to 1, all of them 1
+/// together, or all zero if none was.
+struct ActivationShares {
+  std::vector<float> classes;
+  std::vector<float> instances;
+};
+
+inline namespace SHORTSHOT_ISA {
+
+/// ok or bad_option.
+[[nodiscard]] inline Status check(const RecognizerOptions& options) noexcept {
+  const bool usable = options.bandwidth >= 1e-6f && options.bandwidth <= 1e6f && options.neighbors >= 1 &&
+                      options.neighbors <= 1024 && options.most >= 1;
+  return usable ? Status::ok : Status::bad_option;
+}
+
+/// Recognises objects by their descriptors. Every descriptor of the training views is a codeword. One of a new view
+/// activates those that are nearest (L2), and each of these votes for the place where its object's centre would be: as
+/// it lay in the key point's local reference frame in training. Votes for a class gather at the centres of its objects;
+/// mean shift finds where they are densest.
+///
+/// Objects have a class ("mug") and an instance ("red mug"); an instance is known by both names together. For which
+/// descriptor a recogniser is, is said by the first training view: the text `layout` (layout_of(), with whatever else
+/// two descriptors must have in common to be compared) and the number of values. Radii, and how frames are turned, must
+/// be the same in training and afterwards.
+///
+/// Calls of const functions may run at the same time. All may throw what extract() may; a recogniser that ran out of
+/// memory in train() can only be assigned to or destroyed.
+class Recognizer {
+ public:
+  Recognizer() = default;
+  explicit Recognizer(const RecognizerOptions& options) noexcept : options_(options) {}
+
+  [[nodiscard]] const RecognizerOptions& options() const noexcept { return options_; }
+  void set_options(const RecognizerOptions& options) noexcept { options_ = options; }
+
+  [[nodiscard]] std::size_t class_count() const noexcept { return codebook_.classes.size(); }
+  [[nodiscard]] std::size_t instance_count() const noexcept { return codebook_.instances.size(); }
+  [[nodiscard]] std::size_t codeword_count() const noexcept { return codebook_.codewords.size(); }
+  /// For numbers below class_count() and instance_count(), in the order of training.
+  [[nodiscard]] const std::string& class_name(std::size_t object_class) const {
+    return codebook_.classes[object_class];
+  }
+  [[nodiscard]] const std::string& instance_name(std::size_t instance) const {
+    return codebook_.instances[instance].name;
+  }
+  [[nodiscard]] std::uint32_t class_of(std::size_t instance) const {
+    return codebook_.instances[instance].object_class;
+  }
+
+  /// What the first training view's descriptors were, and how many values they had; empty and 0 before it.
+  [[nodiscard]] const std::string& layout() const noexcept { return codebook_.layout; }
+  [[nodiscard]] std::size_t row_size() const noexcept { return codebook_.row_size; }
+
+  /// Learns a view of an object. `center` is a point at the same place of the object in all of its views, best in its
+  /// middle, in the view's coordinates. Rows whose status is not ok are left out; a view that has no other adds
+  /// nothing, not even its names.
+  ///
+  /// Statuses: bad_rows (null pointers, rows without values, values that are not finite, 2^32 - 1 codewords or more),
+  /// invalid_keypoint (a key point or the centre is not finite, or they lie 1e38 m apart), bad_frame, other_descriptor.
+  /// Nothing has changed then. Allocates 16 bytes for a codeword and 4 for each of its values.
+  [[nodiscard]] Status train(const FeatureRows& rows, std::string_view layout, const Point& center,
+                             std::string_view object_class, std::string_view instance) {
+    Status status = detail::check_values(rows);
+    if (status == Status::ok && !is_finite(center)) status = Status::invalid_keypoint;
+    if (status == Status::ok && codeword_count() > 0) status = codebook_.fits(rows.descriptors, layout);
+    if (status == Status::ok) status = codebook_.add(rows, center, object_class, instance);
+    if (status == Status::ok && codebook_.row_size == 0 && codeword_count() > 0) {
+      codebook_.layout = layout;
+      codebook_.row_size = rows.descriptors.size;
+    }
+    return status;
+  }
+
+  /// The same for what extract() gives with these key points.
+  template <class D, class Color>
+  [[nodiscard]] Status train(const Features<D, Color>& features, const std::vector<KeyPoint>& keypoints,
+                             const Point& center, std::string_view object_class, std::string_view instance) {
+    return train(rows_of(features, keypoints), layout_of<D>(), center, object_class, instance);
+  }
+
+  /// Finds the objects in a view: the maxima of the density of votes, densest first. The first one's class is what the
+  /// view shows if it shows one object. Its instance is the one whose votes count for most there.
+  ///
+  /// `out`      of each class, maxima that lie farther than the bandwidth from any denser one; options().most in all.
+  ///            Empty if no row has the status ok
+  /// `threads`  how many threads share the work, or an executor (see extract()); the result is the same, bit for bit,
+  ///            for any number, and on every machine
+  ///
+  /// Statuses: what train() has, bad_option and not_trained; `out` is empty then. The cost is that of nearest() and of
+  /// mean shift from every vote, about V^2 / 10 microseconds for V votes for one class (measured on a desktop CPU: 2 ms
+  /// for 130, 0.15 s for 1000). Allocates what nearest() does, and 50 bytes for each vote.
+  template <class Threads = unsigned>
+  [[nodiscard]] Status recognize(const FeatureRows& rows, std::string_view layout, std::vector<Hypothesis>& out,
+                                 Threads&& threads = 1u) const {
+    out.clear();
+    std::vector<Match> matches;
+    Status status = detail::check_values(rows);
+    if (status == Status::ok) status = activate(rows.descriptors, layout, matches, threads);
+    if (status != Status::ok) return status;
+    const std::vector<detail::Vote> votes = cast_votes(rows, matches);
+    std::vector<detail::Peak> peaks(votes.size());
+    auto&& executor = detail::executor_of(threads, (votes.size() + vote_block - 1) / vote_block);
+    const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
+    detail::for_blocks(executor, team, votes.size(), vote_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) peaks[i] = density_for(votes, votes[i].object_class).climb(votes[i]);
+    });
+    choose(votes, peaks, out);
+    return Status::ok;
+  }
+
+  template <class D, class Color, class Threads = unsigned>
+  [[nodiscard]] Status recognize(const Features<D, Color>& features, const std::vector<KeyPoint>& keypoints,
+                                 std::vector<Hypothesis>& out, Threads&& threads = 1u) const {
+    return recognize(rows_of(features, keypoints), layout_of<D>(), out, threads);
+  }
+
+  /// The simpler way, without places: by which classes' and instances' codewords the descriptors are matched. A single
+  /// object is what has the largest share. Statuses and `threads` as for recognize(); `out` is empty then.
+  template <class Threads = unsigned>
+  [[nodiscard]] Status activation_shares(const DescriptorRows& rows, std::string_view layout, ActivationShares& out,
+                                         Threads&& threads = 1u) const {
+    out.classes.clear();
+    out.instances.clear();
+    std::vector<Match> matches;
+    Status status = detail::check_values(rows);
+    if (status == Status::ok) status = activate(rows, layout, matches, threads);
+    if (status != Status::ok) return status;
+    out.classes.assign(class_count(), 0.0f);
+    out.instances.assign(instance_count(), 0.0f);
+    float activations = 0.0f;
+    for (const Match& match : matches) {
+      if (match.row == no_row) continue;
+      const std::uint32_t instance = codebook_.codewords[match.row].instance;
+      out.classes[class_of(instance)] += 1.0f;
+      out.instances[instance] += 1.0f;
+      activations += 1.0f;
+    }
+    for (float& share : out.classes) share /= std::max(activations, 1.0f);
+    for (float& share : out.instances) share /= std::max(activations, 1.0f);
+    return Status::ok;
+  }
+
+  template <class D, class Color, class Threads = unsigned>
+  [[nodiscard]] Status activation_shares(const Features<D, Color>& features, ActivationShares& out,
+                                         Threads&& threads = 1u) const {
+    return activation_shares(rows_of(features), layout_of<D>(), out, threads);
+  }
+
+ private:
+  friend Status save(const Recognizer& recognizer, std::vector<std::uint8_t>& bytes);
+  friend Status load(const std::uint8_t* bytes, std::size_t size, std::string_view layout, Recognizer& out);
+
+  /// Votes that a thread takes at a time.
+  static constexpr std::size_t vote_block = 8;
+
+  template <class Threads>
+  [[nodiscard]] Status activate(const DescriptorRows& rows, std::string_view layout, std::vector<Match>& matches,
+                                Threads& threads) const {
+    Status status = check(options_);
+    if (status == Status::ok) status = codebook_.fits(rows, layout);
+    if (status == Status::ok) status = nearest(rows, codebook_.rows(), options_.neighbors, matches, threads);
+    return status;
+  }
+
+  /// In ascending order of classes.
+  [[nodiscard]] std::vector<detail::Vote> cast_votes(const FeatureRows& rows, const std::vector<Match>& matches) const {
+    std::vector<detail::Vote> votes;
+    votes.reserve(matches.size());
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      if (matches[i].row == no_row) continue;
+      const detail::Codebook::Codeword& codeword = codebook_.codewords[matches[i].row];
+      const std::size_t row = i / options_.neighbors;
+      const Point center = detail::from_local(codeword.center, rows.keypoints[row].position, rows.frames[row]);
+      if (!is_finite(center)) continue;  // farther away than floats reach
+      votes.push_back({center, class_of(codeword.instance), codeword.instance});
+    }
+    std::stable_sort(votes.begin(), votes.end(),
+                     [](const detail::Vote& a, const detail::Vote& b) { return a.object_class < b.object_class; });
+    return votes;
+  }
+
+  [[nodiscard]] detail::VoteDensity density_for(const std::vector<detail::Vote>& votes,
+                                                std::uint32_t object_class) const {
+    const auto has_class_below = [](const detail::Vote& vote, std::uint32_t end) { return vote.object_class < end; };
+    const auto begin = std::lower_bound(votes.begin(), votes.end(), object_class, has_class_below);
+    const auto end = std::lower_bound(begin, votes.end(), object_class + 1, has_class_below);
+    return {votes.data() + (begin - votes.begin()), votes.data() + (end - votes.begin()), options_.bandwidth};
+  }
+
+  /// The instance whose votes have the largest sum of weights at a place; the first trained one of those.
+  [[nodiscard]] std::uint32_t heaviest_instance(const detail::VoteDensity& density, const Point& at) const {
+    std::vector<float> sums(instance_count(), 0.0f);
+    for (const detail::Vote& vote : density) sums[vote.instance] += density.weight(vote, at);
+    return static_cast<std::uint32_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+  }
+
+  /// Hypotheses from the peak that each vote has climbed to, densest first; of equal ones, as the votes are ordered.
+  void choose(const std::vector<detail::Vote>& votes, const std::vector<detail::Peak>& peaks,
+              std::vector<Hypothesis>& out) const {
+    std::vector<std::size_t> order(peaks.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return peaks[a].density > peaks[b].density; });
+    for (const std::size_t i : order) {
+      if (out.size() == options_.most) break;
+      const std::uint32_t object_class = votes[i].object_class;
+      const Point& at = peaks[i].at;
+      const bool is_known = std::any_of(out.begin(), out.end(), [&](const Hypothesis& denser) {
+        return denser.object_class == object_class &&
+               squared_distance(denser.center, at) <= rounded(options_.bandwidth * options_.bandwidth);
+      });
+      if (is_known) continue;
+      const detail::VoteDensity density = density_for(votes, object_class);
+      out.push_back({object_class, heaviest_instance(density, at), at, peaks[i].density});
+    }
+  }
+
+  RecognizerOptions options_;
+  detail::Codebook codebook_;
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/recognizer_model.hpp: a trained recogniser as bytes, or in a file. Hosted only: allocates. Needs Eigen
+// (match.hpp).
+//
+// All numbers are little-endian, floats by their bits, counts and lengths 8 bytes:
+//
+//     "SSHOTREC", 4 bytes format version
+//     layout (length, characters), values of a row
+//     options: 4 bytes each bandwidth, neighbors, most
+//     count of classes, for each: name (length, characters)
+//     count of instances, for each: 4 bytes class, name (length, characters)
+//     count of codewords, for each: 4 bytes instance, 3 floats centre in the key point's frame
+//     values, row by row
+//     8 bytes checksum (64-bit FNV-1a) of all bytes before it
+//
+// FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
+// does once in 2^64 times. It is no protection from who means harm; load() believes no number because of it.
+
+#include <fstream>
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+inline constexpr std::string_view model_magic = "SSHOTREC";
+inline constexpr std::uint32_t model_version = 1;
+inline constexpr std::size_t checksum_bytes = 8;
+
+[[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size) noexcept {
+  std::uint64_t hash = 0xCBF29CE484222325u;
+  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001B3u;
+  return hash;
+}
+
+class ModelWriter {
+ public:
+  explicit ModelWriter(std::vector<std::uint8_t>& bytes) noexcept : bytes_(bytes) {}
+
+  template <class Unsigned>
+  void number(Unsigned value) {
+    for (std::size_t k = 0; k < sizeof value; ++k) {
+      bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * k) & 0xFFu));
+    }
+  }
+  void count(std::size_t value) { number(std::uint64_t{value}); }
+  void real(float value) { number(math::bits_of(value)); }
+  void characters(std::string_view text) {
+    for (const char c : text) number(static_cast<std::uint8_t>(c));
+  }
+  void name(std::string_view text) {
+    count(text.size());
+    characters(text);
+  }
+
+ private:
+  std::vector<std::uint8_t>& bytes_;
+};
+
+/// Reads what may be damaged: from the first thing on that cannot be, all is zero and good() false.
+class ModelReader {
+ public:
+  ModelReader(const std::uint8_t* bytes, std::size_t size) noexcept : at_(bytes), left_(size) {}
+
+  [[nodiscard]] bool good() const noexcept { return good_; }
+  [[nodiscard]] std::size_t left() const noexcept { return left_; }
+  void require(bool condition) noexcept { good_ = good_ && condition; }
+
+  template <class Unsigned>
+  [[nodiscard]] Unsigned number() noexcept {
+    const std::uint8_t* const bytes = take(sizeof(Unsigned));
+    Unsigned value = 0;
+    for (std::size_t k = sizeof value; good_ && k-- > 0;) value = static_cast<Unsigned>(value << 8 | bytes[k]);
+    return value;
+  }
+  [[nodiscard]] float real() noexcept {
+    const float value = math::float_of(number<std::uint32_t>());
+    require(math::is_finite(value));
+    return good_ ? value : 0.0f;
+  }
+  [[nodiscard]] Point point() noexcept {
+    const float x = real();
+    const float y = real();
+    return {x, y, real()};
+  }
+  /// How many there are of something that takes `least` bytes or more each: no more than the bytes that are left hold.
+  [[nodiscard]] std::size_t count(std::size_t least) noexcept {
+    const auto value = number<std::uint64_t>();
+    require(value <= left_ / least);
+    return good_ ? static_cast<std::size_t>(value) : 0;
+  }
+  /// One of `count` things.
+  [[nodiscard]] std::uint32_t index(std::size_t count) noexcept {
+    const auto value = number<std::uint32_t>();
+    require(value < count);
+    return good_ ? value : 0;
+  }
+  [[nodiscard]] std::string name() {
+    const std::size_t length = count(1);
+    const std::uint8_t* const characters = take(length);
+    return {characters, characters + length};
+  }
+
+ private:
+  [[nodiscard]] const std::uint8_t* take(std::size_t size) noexcept {
+    require(size <= left_);
+    if (!good_) return at_;
+    left_ -= size;
+    at_ += size;
+    return at_ - size;
+  }
+
+  const std::uint8_t* at_;
+  std::size_t left_;
+  bool good_ = true;
+};
+
+inline void write(ModelWriter& to, const RecognizerOptions& options, const Codebook& codebook) {
+  to.name(codebook.layout);
+  to.count(codebook.row_size);
+  to.real(options.bandwidth);
+  to.number(options.neighbors);
+  to.number(options.most);
+  to.count(codebook.classes.size());
+  for (const std::string& name : codebook.classes) to.name(name);
+  to.count(codebook.instances.size());
+  for (const Codebook::Instance& instance : codebook.instances) {
+    to.number(instance.object_class);
+    to.name(instance.name);
+  }
+  to.count(codebook.codewords.size());
+  for (const Codebook::Codeword& codeword : codebook.codewords) {
+    to.number(codeword.instance);
+    for (std::size_t axis = 0; axis < 3; ++axis) to.real(coordinate(codeword.center, axis));
+  }
+  for (const float value : codebook.values) to.real(value);
+}
+
+/// False if not all of it can be: then what has been read is of no use.
+[[nodiscard]] inline bool read(ModelReader& from, RecognizerOptions& options, Codebook& codebook) {
+  codebook.layout = from.name();
+  codebook.row_size = from.count(sizeof(float));
+  options.bandwidth = from.real();
+  options.neighbors = from.number<std::uint32_t>();
+  options.most = from.number<std::uint32_t>();
+  from.require(check(options) == Status::ok);
+  for (std::size_t i = from.count(8); i > 0 && from.good(); --i) codebook.classes.push_back(from.name());
+  for (std::size_t i = from.count(12); i > 0 && from.good(); --i) {
+    const std::uint32_t object_class = from.index(codebook.classes.size());
+    codebook.instances.push_back({object_class, from.name()});
+  }
+  const std::size_t codewords = from.count(16);
+  from.require(codewords > 0 && codewords < no_row);
+  codebook.codewords.reserve(codewords);
+  for (std::size_t i = codewords; i > 0 && from.good(); --i) {
+    const std::uint32_t instance = from.index(codebook.instances.size());
+    codebook.codewords.push_back({instance, from.point()});
+  }
+  const std::size_t row_bytes = sizeof(float) * codebook.row_size;
+  from.require(row_bytes > 0 && from.left() % row_bytes == 0 && from.left() / row_bytes == codewords);
+  if (!from.good()) return false;
+  codebook.values.reserve(from.left() / sizeof(float));
+  while (from.left() > 0 && from.good()) codebook.values.push_back(from.real());
+  return from.good();
+}
+
+}  // namespace detail
+
+/// A trained recogniser, with its options, as bytes: the same ones on every machine. Statuses: not_trained, bad_option;
+/// `bytes` is empty then. Allocates the bytes.
+[[nodiscard]] inline Status save(const Recognizer& recognizer, std::vector<std::uint8_t>& bytes) {
+  bytes.clear();
+  if (recognizer.codeword_count() == 0) return Status::not_trained;
+  if (check(recognizer.options_) != Status::ok) return Status::bad_option;
+  const std::size_t codeword_bytes = 16 + sizeof(float) * recognizer.row_size();
+  bytes.reserve(4096 + recognizer.codeword_count() * codeword_bytes);
+  detail::ModelWriter to(bytes);
+  to.characters(detail::model_magic);
+  to.number(detail::model_version);
+  detail::write(to, recognizer.options_, recognizer.codebook_);
+  to.number(detail::checksum(bytes.data(), bytes.size()));
+  return Status::ok;
+}
+
+/// The recogniser that save() made these bytes of, for descriptors of a layout (see Recognizer; layout_of()).
+///
+/// Statuses, the first one that applies: not_a_model, other_version, damaged_model (the bytes end early, or go on; the
+/// checksum is wrong; or they are not what save() writes), other_descriptor. `out` has not changed then. Allocates a
+/// few times the bytes at the most, whatever they say.
+[[nodiscard]] inline Status load(const std::uint8_t* bytes, std::size_t size, std::string_view layout,
+                                 Recognizer& out) {
+  constexpr std::size_t magic_bytes = detail::model_magic.size();
+  constexpr std::size_t header_bytes = magic_bytes + sizeof detail::model_version;
+  if (bytes == nullptr || size < magic_bytes || std::memcmp(bytes, detail::model_magic.data(), magic_bytes) != 0) {
+    return Status::not_a_model;
+  }
+  detail::ModelReader header(bytes + magic_bytes, size - magic_bytes);
+  const auto version = header.number<std::uint32_t>();
+  if (header.good() && version != detail::model_version) return Status::other_version;
+  if (header.left() < detail::checksum_bytes) return Status::damaged_model;
+  const std::size_t checked_bytes = size - detail::checksum_bytes;
+  detail::ModelReader checksum(bytes + checked_bytes, detail::checksum_bytes);
+  if (checksum.number<std::uint64_t>() != detail::checksum(bytes, checked_bytes)) return Status::damaged_model;
+
+  Recognizer loaded;
+  detail::ModelReader body(bytes + header_bytes, checked_bytes - header_bytes);
+  if (!detail::read(body, loaded.options_, loaded.codebook_)) return Status::damaged_model;
+  if (loaded.codebook_.layout != layout) return Status::other_descriptor;
+  out = std::move(loaded);
+  return Status::ok;
+}
+
+/// The same in a file, which is written anew. Also no_file: it cannot be opened, or not all of it written or read. If
+/// that happens to save(), the file may be damaged, and load() will say so.
+[[nodiscard]] inline Status save(const Recognizer& recognizer, const std::string& path) {
+  std::vector<std::uint8_t> bytes;
+  const Status status = save(recognizer, bytes);
+  if (status != Status::ok) return status;
+  std::ofstream file(path, std::ios::binary);
+  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  file.close();  // only then the last bytes are known to be written
+  return file ? Status::ok : Status::no_file;
+}
+
+[[nodiscard]] inline Status load(const std::string& path, std::string_view layout, Recognizer& out) {
+  std::ifstream file(path, std::ios::binary);
+  std::vector<std::uint8_t> bytes;
+  char block[4096];
+  while (file.read(block, sizeof block) || file.gcount() > 0) bytes.insert(bytes.end(), block, block + file.gcount());
+  return file.eof() ? load(bytes.data(), bytes.size(), layout, out) : Status::no_file;
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+#endif
 #endif
 
 #if defined(NANOFLANN_VERSION)

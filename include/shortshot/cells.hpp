@@ -20,6 +20,7 @@ struct CellStrides {
 /// The cells of the published SSH / SCSH code: elevation from the frame's +z down, a border belongs to the cell above
 /// it, radius is laid out fastest and azimuth slowest, and a histogram has bins of equal width.
 struct PublishedCells {
+  static constexpr const char* name = "published cells";  ///< for layout_of()
   template <class Grid>
   static constexpr CellStrides strides{1, Grid::radial, Grid::radial* Grid::elevation};
   /// Values of a histogram of a signal's `bins`.
@@ -46,6 +47,7 @@ struct PublishedCells {
 /// neighbour at R / 2 to the inner shell, one at z = 0 to the lower half), histograms fastest, then elevation, radius
 /// and azimuth, and one value more than a histogram has bins, because those are the distances of their middles.
 struct ShotCells {
+  static constexpr const char* name = "SHOT cells";
   template <class Grid>
   static constexpr CellStrides strides{Grid::elevation, 1, Grid::radial* Grid::elevation};
   [[nodiscard]] static constexpr int values(int bins) noexcept { return bins + 1; }

@@ -7,6 +7,7 @@
 
 #include "config.hpp"
 #include "math.hpp"
+#include "rounded.hpp"
 #include "simd.hpp"
 #include "status.hpp"
 
@@ -157,6 +158,14 @@ namespace detail {
 /// Coordinate 0, 1 or 2 of a point.
 [[nodiscard]] inline float coordinate(const Point& p, std::size_t axis) noexcept {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
+}
+
+/// Summed as (dx*dx + dy*dy) + dz*dz, like all distances here.
+[[nodiscard]] inline float squared_distance(const Point& a, const Point& b) noexcept {
+  const float dx = a.x - b.x;
+  const float dy = a.y - b.y;
+  const float dz = a.z - b.z;
+  return (rounded(dx * dx) + rounded(dy * dy)) + rounded(dz * dz);
 }
 
 /// The points of one register.

@@ -26,7 +26,8 @@ struct Lab {
 inline namespace SHORTSHOT_ISA {
 /// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
 struct PublishedLab {
-  static constexpr bool leaves_gamut = false;  ///< are there sRGB colours beyond -120..120 in a or b?
+  static constexpr const char* name = "published Lab";  ///< for layout_of()
+  static constexpr bool leaves_gamut = false;           ///< are there sRGB colours beyond -120..120 in a or b?
   /// Of a CIE ratio, 0 to 1.
   [[nodiscard]] static float root(float t) noexcept {
     return t > 0.008856f ? detail::published_root(t) : rounded(7.787f * t) + 16.0f / 116.0f;
@@ -35,6 +36,7 @@ struct PublishedLab {
 
 /// CIELAB by the formula of PCL's CSHOT: the cube root above the knee, 7.87 t + 16/116 below.
 struct CshotLab {
+  static constexpr const char* name = "CSHOT Lab";
   static constexpr bool leaves_gamut = false;
   [[nodiscard]] static float root(float t) noexcept {
     return t > 0.008856f ? detail::cube_root(t) : rounded(7.87f * t) + 16.0f / 116.0f;
@@ -44,6 +46,7 @@ struct CshotLab {
 /// The same as PCL's compiled code gives it: its table of roots ends before that of 1, where it reads a zero. White,
 /// the only colour with such a ratio, becomes L = -16, a = 120, b = -120.
 struct PclLab {
+  static constexpr const char* name = "PCL Lab";
   static constexpr bool leaves_gamut = true;
   [[nodiscard]] static float root(float t) noexcept { return t < 1.0f ? CshotLab::root(t) : 0.0f; }
 };

@@ -16,6 +16,7 @@ inline namespace SHORTSHOT_ISA {
 
 /// Signal of SSH: none. Every point counts as one, a cell holds a plain sum.
 struct Occupancy {
+  static constexpr const char* name = "occupancy";  ///< for layout_of()
   static constexpr bool has_histogram = false;
   static constexpr int bins = 1;
   static constexpr bool needs_colors = false;
@@ -27,6 +28,7 @@ struct Occupancy {
 template <int Bins>
 struct NormalCosine {
   static_assert(Bins >= 1 && Bins <= 1023, "NormalCosine<Bins> supports 1 to 1023 histogram bins");
+  static constexpr const char* name = "normal cosine";
   static constexpr bool has_histogram = true;
   static constexpr int bins = Bins;
   static constexpr bool needs_colors = false;
@@ -39,6 +41,7 @@ struct NormalCosine {
 template <int Bins, class LabRule = PublishedLab>
 struct ColorDistance {
   static_assert(Bins >= 1 && Bins <= 1024, "ColorDistance<Bins> supports 1 to 1024 histogram bins");
+  static constexpr const char* name = "colour distance";
   static constexpr bool has_histogram = true;
   static constexpr int bins = Bins;
   static constexpr bool needs_colors = true;

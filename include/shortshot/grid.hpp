@@ -29,6 +29,7 @@ struct SphericalGrid {
 
 /// Shells of equal width: the published default.
 struct LinearRadius {
+  static constexpr const char* name = "equal shells";  ///< for layout_of()
   static constexpr bool is_linear = true;
   static constexpr BelowZero below_zero = BelowZero::never;
   /// All borders and middles of shells are multiples of 1 / borders.
@@ -41,6 +42,7 @@ template <int Numerator = 1, int Denominator = 4>
 struct LogRadius {
   static_assert(0 < Numerator && 100LL * Numerator <= 99LL * Denominator,
                 "LogRadius<N, D> supports ratios 0 < N / D <= 0.99");
+  static constexpr const char* name = "logarithmic shells";
   static constexpr bool is_linear = false;
   static constexpr BelowZero below_zero = BelowZero::first_cell;
   static constexpr int borders(int) noexcept { return 1; }  // in float's own rounding

@@ -3,7 +3,8 @@
 //
 // The umbrella. On bare metal it is the kernel: no heap, no exceptions, no operating system. Where there is an
 // operating system it adds what allocates: extract() for many key points, sampling, a grid with memory of its own.
-// Include <nanoflann.hpp> or <Eigen/Core> BEFORE it and NanoflannSearch or view_eigen() are there as well.
+// Include <nanoflann.hpp> BEFORE it and NanoflannSearch is there as well; with <Eigen/Core>, view_eigen(), and on an
+// operating system matching, poses and the recogniser.
 #pragma once
 
 #include "adapters/point_cloud2.hpp"
@@ -14,8 +15,16 @@
 #include "adapters/pcl.hpp"
 #include "estimate_normals.hpp"
 #include "extract.hpp"
+#include "layout.hpp"
+#include "rows.hpp"
 #include "sample.hpp"
 #include "search/grid_hosted.hpp"
+#if defined(EIGEN_WORLD_VERSION)
+#include "match.hpp"
+#include "pose.hpp"
+#include "recognizer.hpp"
+#include "recognizer_model.hpp"
+#endif
 #endif
 
 #if defined(NANOFLANN_VERSION)

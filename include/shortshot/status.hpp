@@ -27,10 +27,20 @@ enum class [[nodiscard]] Status : std::uint8_t {
   bad_leaf,            ///< a voxel size is not a finite number above zero
   out_of_memory,       ///< caller-provided memory is too small for the cloud
   not_organized,       ///< the cloud is no image of a pinhole camera, so it has no image window to search
+  bad_rows,            ///< rows of descriptors that do not fit each other, or null pointers
+  bad_option,          ///< an option is outside of the range that its docstring gives
+  too_few_pairs,       ///< fewer than three correspondences
+  no_pose,             ///< no rigid motion that at least three correspondences agree on
+  not_trained,         ///< the recogniser has no training view with a descriptor
+  not_a_model,         ///< the bytes are no recogniser's
+  other_version,       ///< the model was written by a version with another format
+  other_descriptor,    ///< descriptors of another layout than the model was trained with
+  damaged_model,       ///< the model is truncated, or its checksum or contents are wrong
+  no_file,             ///< a file cannot be read or written
 };
 // clang-format on
 
-inline constexpr int status_count = static_cast<int>(Status::not_organized) + 1;
+inline constexpr int status_count = static_cast<int>(Status::no_file) + 1;
 
 inline namespace SHORTSHOT_ISA {
 
@@ -53,6 +63,16 @@ inline namespace SHORTSHOT_ISA {
     case Status::bad_leaf: return "a voxel size must be finite and above zero";
     case Status::out_of_memory: return "the memory provided is too small";
     case Status::not_organized: return "the cloud is not an image of a pinhole camera";
+    case Status::bad_rows: return "the rows of descriptors do not fit each other";
+    case Status::bad_option: return "an option is out of its range";
+    case Status::too_few_pairs: return "a pose takes three correspondences or more";
+    case Status::no_pose: return "no rigid motion fits three correspondences or more";
+    case Status::not_trained: return "the recogniser has no training view";
+    case Status::not_a_model: return "not a recogniser's model";
+    case Status::other_version: return "the model's format is of another version";
+    case Status::other_descriptor: return "the model was trained with another descriptor";
+    case Status::damaged_model: return "the model is damaged";
+    case Status::no_file: return "the file cannot be read or written";
   }
   return "unknown status";
 }

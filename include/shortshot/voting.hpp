@@ -123,6 +123,7 @@ template <int Axes>
 /// * `FlipRadius`: the signal's partner also gets the radial PARTNER's share in place of the radial cell's.
 template <bool FlipRadius>
 struct AdditiveVoting {
+  static constexpr const char* name = FlipRadius ? "published voting" : "additive voting";  ///< for layout_of()
   static constexpr bool partners_get_own_share = false;
   static constexpr int weight_bits = 2;
   template <int Axes>
@@ -168,6 +169,7 @@ using PublishedVoting = AdditiveVoting<true>;
 /// one short: a vote from the last bin but one up to the last one goes to the first one instead.
 template <bool WrapLastBin>
 struct SeparateVoting {
+  static constexpr const char* name = WrapLastBin ? "PCL voting" : "SHOT voting";
   static constexpr bool partners_get_own_share = true;
   static constexpr int weight_bits = 3;  // half units
   template <int Axes>
@@ -210,6 +212,7 @@ using PclVoting = SeparateVoting<true>;  ///< equal to PCL to the last quirk: fo
 
 /// The paper's equation (2): a point counts once, in the cell it falls into.
 struct HardVoting {
+  static constexpr const char* name = "hard voting";
   static constexpr bool partners_get_own_share = false;
   static constexpr int weight_bits = 2;
   template <int Axes>
@@ -230,6 +233,7 @@ struct HardVoting {
 /// Multilinear interpolation: shares multiply, over all 2^N cells around the point. A partition of unity (every point
 /// counts exactly once in all: what has no partner stays in the cell) and continuous at every border between cells.
 struct MultilinearVoting {
+  static constexpr const char* name = "multilinear voting";
   static constexpr bool partners_get_own_share = false;
   static constexpr int weight_bits = 2;
   template <int Axes>

@@ -84,4 +84,9 @@ static_assert(TwoConventions::size > 0, "");
 shortshot::Status no_normals(const shortshot::Neighborhood& n, float* out) {
   return shortshot::describe<shortshot::Shot352>(n, shortshot::NoColors{}, shortshot::NoNormals{}, {}, 0.1f, out);
 }
+#elif CASE == 21
+struct NamelessVoting : shortshot::PublishedVoting {
+  static constexpr int name = 0;
+};
+std::string text() { return shortshot::layout_of<shortshot::Ssh<Grid<2, 2, 8>, NamelessVoting>>(); }
 #endif

@@ -88,6 +88,44 @@ std::size_t describe_all(const shortshot::CloudView& cloud) {
   return rows;
 }
 
+#if defined(__cpp_exceptions)
+/// Everything that needs Eigen.
+std::size_t recognize(const shortshot::CloudView& cloud) {
+  std::vector<shortshot::KeyPoint> keypoints;
+  shortshot::Features<shortshot::Ssh32> features;
+  const shortshot::GridSearch search(cloud, 0.1f);
+  if (shortshot::sample_centroids(cloud, 0.1f, keypoints) != shortshot::Status::ok) return 0;
+  if (shortshot::extract(cloud, search, keypoints, 0.1f, features) != shortshot::Status::ok) return 0;
+
+  std::vector<shortshot::Match> matches;
+  std::vector<shortshot::Correspondence> correspondences;
+  if (shortshot::nearest(rows_of(features), rows_of(features), 2, matches) != shortshot::Status::ok) return 0;
+  if (shortshot::reciprocal_correspondences(rows_of(features), rows_of(features), correspondences, 2) !=
+      shortshot::Status::ok) {
+    return 0;
+  }
+  std::vector<shortshot::PointPair> pairs;
+  pairs.reserve(correspondences.size());
+  for (const auto& c : correspondences) pairs.push_back({keypoints[c.source].position, keypoints[c.target].position});
+  shortshot::Pose pose{};
+  std::vector<std::uint32_t> inliers;
+  if (shortshot::fit_pose(pairs, pose) != shortshot::Status::ok) return 0;
+  if (shortshot::estimate_pose(pairs, {}, pose, inliers) != shortshot::Status::ok) return 0;
+
+  shortshot::Recognizer recognizer;
+  if (recognizer.train(features, keypoints, {}, "class", "instance") != shortshot::Status::ok) return 0;
+  std::vector<std::uint8_t> model;
+  if (shortshot::save(recognizer, model) != shortshot::Status::ok) return 0;
+  const std::string layout = shortshot::layout_of<shortshot::Ssh32>();
+  if (shortshot::load(model.data(), model.size(), layout, recognizer) != shortshot::Status::ok) return 0;
+  std::vector<shortshot::Hypothesis> hypotheses;
+  shortshot::ActivationShares shares;
+  if (recognizer.recognize(features, keypoints, hypotheses) != shortshot::Status::ok) return 0;
+  if (recognizer.activation_shares(features, shares) != shortshot::Status::ok) return 0;
+  return hypotheses.size() + shares.classes.size() + inliers.size();
+}
+#endif
+
 }  // namespace
 
 int main() {
@@ -99,7 +137,7 @@ int main() {
   if (shortshot::view_point_cloud2(message, view) == shortshot::Status::ok) rows += describe_all(view);
 #if defined(__cpp_exceptions)
   const Eigen::Matrix3Xf matrix = Eigen::Matrix3Xf::Zero(3, 10);
-  rows += describe_all(shortshot::view_eigen(matrix));
+  rows += describe_all(shortshot::view_eigen(matrix)) + recognize(shortshot::view_eigen(matrix));
 #endif
   return rows > 0 ? 0 : 1;
 }

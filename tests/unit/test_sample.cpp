@@ -1,4 +1,4 @@
-// sample_uniform(): one key point per voxel, the one nearest to its centre.
+// sample_uniform(): one key point per voxel, the one nearest to its centre; sample_centroids(): the mean of its points.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -125,4 +125,53 @@ TEST_CASE("sample: every finite voxel size above zero is a voxel size") {
   const TestCloud cloud = dyadic_cloud(6, 50, 6);
   CHECK(sampled(cloud, 1e25f).size() == 8);  // one an octant
   CHECK(sampled(cloud, 1e-25f).size() == 50);
+}
+
+TEST_CASE("sample: centroids are the means of each voxel's points and colours") {
+  TestCloud cloud = dyadic_cloud(7, 3000, 10);
+  Random random(8);
+  for (std::uint8_t& value : cloud.rgb) value = static_cast<std::uint8_t>(random.below(256));
+  cloud.xyz[0] = not_a_number;
+  struct Sum {
+    double of[6] = {};
+    double count = 0.0;
+  };
+  std::map<std::tuple<double, double, double>, Sum> voxels;  // by z, y, x
+  for (std::size_t i = 1; i < cloud.size(); ++i) {
+    const auto value = [&](std::size_t axis) { return static_cast<double>(cloud.xyz[3 * i + axis]); };
+    const auto number = [&](std::size_t axis) { return std::floor(value(axis) / 0.25); };
+    Sum& sum = voxels[{number(2), number(1), number(0)}];
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum.of[k] += value(k);
+      sum.of[3 + k] += static_cast<double>(cloud.rgb[3 * i + k]);
+    }
+    sum.count += 1.0;
+  }
+  std::vector<ss::KeyPoint> found;
+  REQUIRE(ss::sample_centroids(cloud.view(), 0.25f, found) == Status::ok);
+  REQUIRE(found.size() == voxels.size());
+  std::size_t k = 0;
+  for (const auto& [voxel, sum] : voxels) {
+    const ss::KeyPoint& c = found[k++];
+    const float position[3] = {c.position.x, c.position.y, c.position.z};
+    const std::uint8_t color[3] = {c.color.r, c.color.g, c.color.b};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      CHECK(std::abs(static_cast<double>(position[axis]) - sum.of[axis] / sum.count) < 1e-6);
+      CHECK(color[axis] == std::floor(sum.of[3 + axis] / sum.count + 0.5));
+    }
+  }
+}
+
+TEST_CASE("sample: centroids of bad input, without colour, and beyond all voxel numbers") {
+  std::vector<ss::KeyPoint> found(3);
+  CHECK(ss::sample_centroids(ss::CloudView{}, 0.1f, found) == Status::empty_cloud);
+  CHECK(found.empty());
+  TestCloud cloud;
+  cloud.add(1.0f, 2.0f, 3.0f);
+  CHECK(ss::sample_centroids(cloud.view(), 0.0f, found) == Status::bad_leaf);
+  CHECK(ss::sample_centroids(cloud.view(), not_a_number, found) == Status::bad_leaf);
+  REQUIRE(ss::sample_centroids(ss::view_xyz(cloud.xyz.data(), 1), 1e-38f, found) == Status::ok);
+  REQUIRE(found.size() == 1);
+  CHECK(found[0].position.z == 3.0f);
+  CHECK((found[0].color.r == 0 && found[0].color.g == 0 && found[0].color.b == 0));
 }

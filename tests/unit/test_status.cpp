@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fixtures.hpp"
+#include "recognition_statuses.hpp"
 
 namespace {
 
@@ -83,7 +84,7 @@ TEST_CASE("status: every value is reached by some call") {
   ss::Support blind = radius;
   blind.viewpoint = &no_place;
 
-  const std::set<Status> reached{
+  std::set<Status> reached{
       describe_into_garbage<D>(cloud.view(), std::size_t{0}),
       describe_into_garbage<D>(ss::CloudView{}, std::size_t{0}),
       describe_into_garbage<D>(of_size(std::size_t{1} << 32), std::size_t{0}),
@@ -101,6 +102,7 @@ TEST_CASE("status: every value is reached by some call") {
       organized.build(cloud.view()),
       describe_into_garbage<D>(cloud.view(), std::size_t{0}, blind),
   };
+  reached.merge(reached_by_recognition(upright));
   for (int value = 0; value < ss::status_count; ++value) {
     const auto status = static_cast<Status>(value);
     CAPTURE(status);
