@@ -1,20 +1,8 @@
-# One scaling curve as SVG: cost above, extra memory below, all axes logarithmic. Before this is loaded the output must
-# be set, and what plots.cpp writes: curve, x_name, unit, x_base, cost_base, memory_base, $cost and $memory.
-set terminal svg size 760,760 font "sans-serif,14" background "white" name curve
-set encoding utf8
+# One scaling curve: cost above, extra memory below, all axes logarithmic. Before this is loaded there must be what
+# draw_svg() sets and what plots.cpp writes: curve, x_name, unit, x_base, cost_base, memory_base, $cost and $memory.
+name = curve; width = 760; height = 760
+load style
 
-blue = "#0072b2"; orange = "#d55e00"; green = "#009e73"; purple = "#cc79a7"; black = "#000000"
-set linetype 1 linecolor rgb blue linewidth 2 pointtype 7 pointsize 0.6
-set linetype 2 linecolor rgb orange linewidth 2 pointtype 5 pointsize 0.6
-set linetype 3 linecolor rgb green linewidth 2 pointtype 9 pointsize 0.8
-set linetype 4 linecolor rgb purple linewidth 2 pointtype 11 pointsize 0.8
-set linetype 5 linecolor rgb black linewidth 2 pointtype 13 pointsize 0.8
-set linetype 6 linecolor rgb "#e69f00" linewidth 2 pointtype 3 pointsize 0.8
-
-set border 3
-set tics nomirror
-set grid xtics ytics linecolor rgb "#d0d0d0" linewidth 1
-set key outside right top Left reverse samplen 2
 set lmargin 12
 set rmargin 22
 

@@ -1,11 +1,10 @@
 #include "scaling/plots.hpp"
 
 #include <algorithm>
-#include <csignal>
-#include <cstdio>
 #include <filesystem>
 #include <sstream>
-#include <stdexcept>
+
+#include "plot/gnuplot.hpp"
 
 namespace shortshot_bench::scaling {
 namespace {
@@ -37,23 +36,6 @@ int log_base(const std::vector<CurvePoint>& points, double CurvePoint::*member) 
   return most >= 100.0 * least ? 10 : 2;
 }
 
-std::string quoted_for_gnuplot(const std::string& text) {
-  std::string quoted = "'";
-  for (const char c : text) quoted += c == '\'' ? "''" : std::string(1, c);
-  return quoted + "'";
-}
-
-void run_gnuplot(const std::string& script) {
-  // A shell that finds no gnuplot ends at once; writing to it must be an error, not the end of this program.
-  const auto before = std::signal(SIGPIPE, SIG_IGN);
-  FILE* const gnuplot = popen("gnuplot", "w");
-  if (gnuplot == nullptr) throw std::runtime_error("cannot start gnuplot");
-  const bool written = std::fwrite(script.data(), 1, script.size(), gnuplot) == script.size();
-  const bool done = pclose(gnuplot) == 0;
-  std::signal(SIGPIPE, before);
-  if (!written || !done) throw std::runtime_error("gnuplot (Debian: gnuplot-nox) failed");
-}
-
 }  // namespace
 
 std::string plot_name(const std::string& curve) { return "scaling_" + curve + ".svg"; }
@@ -73,8 +55,8 @@ void draw_plots(const std::vector<CurvePoint>& points, const std::string& direct
   std::filesystem::create_directories(directory);
   for (const std::string& curve : distinct(points, &CurvePoint::curve)) {
     const std::string file = (std::filesystem::path(directory) / plot_name(curve)).string();
-    run_gnuplot("set output " + quoted_for_gnuplot(file) + '\n' + plot_data(with(points, &CurvePoint::curve, curve)) +
-                "load " + quoted_for_gnuplot(SHORTSHOT_PLOT_SCRIPT) + '\n');
+    draw_svg(file, plot_data(with(points, &CurvePoint::curve, curve)) + "load " +
+                       quoted_for_gnuplot(SHORTSHOT_PLOT_SCRIPT) + '\n');
   }
 }
 

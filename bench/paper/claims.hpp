@@ -1,0 +1,31 @@
+// What the paper says, against what was measured.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "campaign/report.hpp"
+#include "campaign/statistics.hpp"
+
+namespace shortshot_bench::paper {
+
+/// Of all bootstraps: the same results give the same report.
+inline constexpr std::uint64_t bootstrap_seed = 1;
+
+/// That a figure is not below `at_least`.
+struct Claim {
+  std::string text;
+  std::string figure;  // what was measured
+  campaign::Interval interval;
+  double at_least;
+  std::string likely_reason;  // if it does not hold
+};
+
+/// "holds": all of the interval is at or above the limit; "does not hold": all of it is below; else "undecided".
+std::string verdict(const Claim& claim);
+
+/// All of them with their verdicts, and the reasons of those that do not hold.
+campaign::Section section_of(const std::vector<Claim>& claims);
+
+}  // namespace shortshot_bench::paper

@@ -1,0 +1,64 @@
+// The descriptors that the experiments compare: each a type of the library, known here by its name.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "paper/library.hpp"
+
+namespace shortshot_bench::paper {
+
+/// Descriptors of key points, whose type is known at run time only.
+struct Described {
+  std::vector<float> values;  // row by row
+  std::vector<shortshot::Status> status;
+  std::vector<shortshot::Frame> frames;
+  std::vector<shortshot::KeyPoint> keypoints;
+  std::size_t size = 0;  // of a row
+
+  shortshot::FeatureRows rows() const {
+    return {{values.data(), status.size(), size, status.data()}, keypoints.data(), frames.data()};
+  }
+};
+
+using Describe = Described (*)(const shortshot::CloudView&, const shortshot::GridSearch&,
+                               const std::vector<shortshot::KeyPoint>&, const shortshot::Support&);
+
+struct Configuration {
+  std::string name;
+  std::size_t size;  // floats
+  bool needs_colors;
+  bool needs_normals;
+  std::string layout;  // what its values mean
+  Describe describe;   // throws std::runtime_error with the library's message
+
+  std::size_t size_bytes() const { return size * sizeof(float); }
+};
+
+/// Throws std::runtime_error with the library's message unless `status` is ok.
+void require(shortshot::Status status);
+
+template <class D>
+Described describe_as(const shortshot::CloudView& cloud, const shortshot::GridSearch& search,
+                      const std::vector<shortshot::KeyPoint>& keypoints, const shortshot::Support& support) {
+  shortshot::Features<D> features;
+  require(shortshot::extract(cloud, search, keypoints, support, features));
+  return {std::move(features.values), std::move(features.status), std::move(features.frames), keypoints,
+          static_cast<std::size_t>(D::size)};
+}
+
+template <class D>
+Configuration configuration(std::string name) {
+  return {std::move(name),  static_cast<std::size_t>(D::size), D::needs_colors,
+          D::needs_normals, shortshot::layout_of<D>(),         describe_as<D>};
+}
+
+/// All that `--descriptor` knows, the paper's baseline first.
+std::vector<Configuration> known_configurations();
+
+/// Those of them with these names, in that order. Throws std::runtime_error with the names that there are.
+std::vector<Configuration> configurations_named(const std::vector<std::string>& names);
+
+}  // namespace shortshot_bench::paper

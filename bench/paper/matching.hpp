@@ -1,0 +1,59 @@
+// Section VI-A of the paper: how well key points of two clouds with a known motion between them are matched.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "datasets/pair_sets.hpp"
+#include "paper/configuration.hpp"
+#include "paper/view.hpp"
+
+namespace shortshot_bench::paper {
+
+struct MatchingSettings {
+  ViewSettings source;
+  ViewSettings target;
+  float correct_distance = 0.01f;  // of a match from the true place, at most; metres
+  float inlier_distance = 0.01f;   // of RANSAC; metres
+  std::uint32_t iterations = 5000;
+  std::uint32_t seeds = 3;  // RANSAC runs of each pair
+};
+
+/// The protocol's, for object-scene pairs and views of objects, or for frames of a room.
+MatchingSettings matching_settings(bool frames);
+
+/// One run of RANSAC.
+struct Trial {
+  bool found = false;          // a motion; if not, the rest means nothing
+  double t_diff = 0.0;         // equation 9
+  double rotation_deg = 0.0;   // between the motion and the true one
+  double translation_m = 0.0;  // between where both bring the centroid of the source's key points
+  std::size_t inliers = 0;     // c_r
+};
+
+/// What one descriptor makes of one pair.
+struct Matching {
+  std::string descriptor;
+  std::size_t keypoints = 0;        // k_m, of the source
+  std::size_t matchable = 0;        // those with a target key point within correct_distance of the true place
+  std::size_t correct_nearest = 0;  // matchable ones whose nearest neighbour is that close to the true place
+  std::size_t reciprocal = 0;       // correspondences
+  std::size_t correct = 0;          // correspondences that close to the true place
+  std::vector<Trial> trials;
+};
+
+/// Each descriptor on one pair; those that need colours are left out where a cloud has none. The clouds must have a
+/// point each; throws std::runtime_error.
+std::vector<Matching> match_pair(const datasets::ViewPair& pair, const MatchingSettings& settings,
+                                 const std::vector<Configuration>& configurations);
+
+nlohmann::ordered_json to_json(const std::vector<Matching>& matchings);
+std::vector<Matching> matchings_of(const nlohmann::ordered_json& json);
+
+/// Equation 9: the Frobenius norm of the difference of two 4 x 4 motions, row-major.
+double t_diff(const datasets::RigidMotion& a, const datasets::RigidMotion& b);
+
+}  // namespace shortshot_bench::paper

@@ -1,0 +1,73 @@
+#include "paper/matching_experiment.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+#include "datasets/pair_sets.hpp"
+#include "paper/matching.hpp"
+
+namespace shortshot_bench::paper {
+namespace {
+
+constexpr std::size_t quick_pairs = 5;  // of each set
+constexpr std::size_t frame_step = 5;   // neighbouring frames of a room are many and much alike
+
+/// Every `step`-th pair in the order of rotation.
+std::vector<std::size_t> chosen_pairs(const datasets::PairSet& set, bool quick) {
+  std::vector<std::size_t> order(set.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return set.rotation_deg[a] < set.rotation_deg[b]; });
+  const std::size_t step = quick                  ? std::max<std::size_t>(1, order.size() / quick_pairs)
+                           : set.name == "frames" ? frame_step
+                                                  : 1;
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < order.size(); i += step) chosen.push_back(order[i]);
+  return chosen;
+}
+
+nlohmann::ordered_json to_json(const MatchingSettings& settings) {
+  return {{"clouds", to_json(settings.source)},
+          {"correct_distance_m", settings.correct_distance},
+          {"inlier_distance_m", settings.inlier_distance},
+          {"ransac_iterations", settings.iterations},
+          {"ransac_runs", settings.seeds}};
+}
+
+void add_set(Experiment& experiment, const std::string& folder, const datasets::PairSet& set,
+             const PaperOptions& options) {
+  const std::string name = std::filesystem::path(folder).lexically_normal().filename().string() + " " + set.name;
+  MatchingSettings settings = matching_settings(set.name == "frames");
+  settings.source.seed = settings.target.seed = options.seed;
+  auto pairs = nlohmann::ordered_json::array();
+  for (const std::size_t i : chosen_pairs(set, options.quick)) {
+    const std::string key = name + "/" + set.pair_names[i];
+    pairs.push_back({{"key", key}, {"group", set.groups[i]}, {"rotation_deg", set.rotation_deg[i]}});
+    add_unit(experiment, {key, [set, i, settings, names = options.descriptors] {
+                            return to_json(match_pair(set.load(i), settings, configurations_named(names)));
+                          }});
+  }
+  experiment.parameters["sets"].push_back({{"name", name},
+                                           {"kind", set.name},
+                                           {"has_color", set.has_color},
+                                           {"settings", to_json(settings)},
+                                           {"pairs", pairs}});
+}
+
+}  // namespace
+
+Experiment matching_experiment(const PaperOptions& options) {
+  Experiment experiment;
+  experiment.parameters = {{"experiment", "matching"},
+                           {"seed", options.seed},
+                           {"quick", options.quick},
+                           {"descriptors", to_json(configurations_named(options.descriptors))}};
+  const auto open = [](const std::string& folder) { return datasets::open_pair_sets(folder); };
+  for (const auto& [folder, sets] : open_folders(options.data, open, datasets::looked_for_pairs)) {
+    for (const datasets::PairSet& set : sets) add_set(experiment, folder, set, options);
+  }
+  return experiment;
+}
+
+}  // namespace shortshot_bench::paper

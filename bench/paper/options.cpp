@@ -1,0 +1,68 @@
+#include "paper/options.hpp"
+
+#include <CLI/CLI.hpp>
+#include <stdexcept>
+
+namespace shortshot_bench::paper {
+namespace {
+
+std::string is_shard(const std::string& text) {
+  try {
+    static_cast<void>(campaign::parse_shard(text));
+    return {};
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
+CLI::App* add_experiment(CLI::App& app, const std::string& name, const std::string& what, PaperOptions& options,
+                         std::string& shard) {
+  CLI::App* const command = app.add_subcommand(name, what);
+  command->add_option("DATA", options.data, "folders of data sets, or folders that hold such folders")->required();
+  command->add_option("--out", options.out, "folder of the results; what it holds already is not done again")
+      ->default_str("paper-" + name);
+  command->add_option("--seed", options.seed, "of everything that is drawn at random")->capture_default_str();
+  command->add_option("--threads", options.threads, "0: as many as there are cores")->capture_default_str();
+  command->add_option("--shard", shard, "k/n: do the k-th of n shares of the work only; then merge the folders")
+      ->check(is_shard);
+  command->add_flag("--quick", options.quick, "a small part of the data, to see that all works");
+  command->add_flag("--check", options.check, "exit 1 if a figure is outside of the bands in bench/paper/bands.json");
+  return command;
+}
+
+}  // namespace
+
+bool parse_options(int argc, const char* const* argv, PaperOptions& options, int& exit_code) {
+  CLI::App app("The experiments of the paper, on data of your own or on public data sets. bench/paper/README.md");
+  app.name("paper");
+  app.require_subcommand(1);
+  std::string shard = "1/1";
+  CLI::App* const matching = add_experiment(app, "matching", "key-point matching (section VI-A)", options, shard);
+  CLI::App* const recognition = add_experiment(app, "recognition", "object recognition (VI-B)", options, shard);
+  add_experiment(app, "ablation", "sizes of SCSH (VI-C)", options, shard);
+  for (CLI::App* const command : {matching, recognition}) {
+    command->add_option("--descriptor", options.descriptors, "those to compare, the baseline first (all; quick: three)")
+        ->delimiter(',');
+  }
+  CLI::App* const merge = app.add_subcommand("merge", "bring the results of shards together, and report on them");
+  merge->add_option("FOLDER", options.data, "folders of results")->required();
+  merge->add_option("--out", options.out, "folder of all results")->required();
+  merge->add_flag("--check", options.check, "as above");
+  exit_code = 0;
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    exit_code = app.exit(error) == 0 ? 0 : 2;
+    return false;
+  }
+  options.command = app.get_subcommands().front()->get_name();
+  if (options.out.empty()) options.out = "paper-" + options.command;
+  options.shard = campaign::parse_shard(shard);
+  if (options.descriptors.empty()) {
+    options.descriptors = {"cshot1344", "shot352", "scsh336", "scsh696", "ssh96", "ssh32"};
+    if (options.quick) options.descriptors = {"cshot1344", "scsh336", "ssh96"};
+  }
+  return true;
+}
+
+}  // namespace shortshot_bench::paper

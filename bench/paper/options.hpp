@@ -1,0 +1,27 @@
+// What the experiments are asked to do.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "campaign/shard.hpp"
+
+namespace shortshot_bench::paper {
+
+struct PaperOptions {
+  std::string command;            // matching, recognition, ablation or merge
+  std::vector<std::string> data;  // folders: data sets; of merge: results
+  std::string out;                // folder of the results
+  std::vector<std::string> descriptors;
+  campaign::Shard shard;
+  unsigned threads = 0;  // 0: as many as there are cores
+  std::uint32_t seed = 1;
+  bool quick = false;  // a small part of the data, to see that all works
+  bool check = false;  // against the bands of figures in bands.json
+};
+
+/// False if there is nothing to run: help was asked for, or the options are wrong (exit code 2), both said already.
+bool parse_options(int argc, const char* const* argv, PaperOptions& options, int& exit_code);
+
+}  // namespace shortshot_bench::paper

@@ -1,0 +1,97 @@
+// Section VI-B of the paper: which object is it? Class and instance from an implicit-shape-model Hough vote, and from
+// plain votes of nearest descriptors.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "datasets/view_sets.hpp"
+#include "datasets/virtual_views.hpp"
+#include "paper/configuration.hpp"
+#include "paper/view.hpp"
+
+namespace shortshot_bench::paper {
+
+struct ObjectLabel {
+  std::string object_class;
+  std::string instance;
+};
+
+/// A view with its label, and what it may be used for.
+struct RecognitionView {
+  std::string name;
+  ObjectLabel label;
+  std::string sequence;  // views of one sequence never train each other
+  bool is_training;
+  bool is_test;
+};
+
+/// Views, and how they are split.
+struct RecognitionTask {
+  std::string name;
+  std::vector<RecognitionView> views;
+  bool leave_one_sequence_out;  // each sequence once as test, all others to train; else is_training and is_test say
+  std::function<RgbdCloud(std::size_t)> load;
+
+  std::size_t tests() const;  // views that are recognised
+};
+
+/// A set of real views by its own split. "segments" leaves out one sequence at a time and has a second task, its other
+/// split, in which instances that occur in one part only are not tested.
+std::vector<RecognitionTask> tasks_of(const datasets::ViewSet& set);
+
+/// Virtual views: lower and higher ones train, those between them test.
+RecognitionTask task_of(const datasets::VirtualViewSet& set, const std::string& name);
+
+/// The task with every n-th of its views.
+RecognitionTask every_nth(const RecognitionTask& task, std::size_t n);
+
+/// The views of a task, each made when it is first asked for and then kept. Thread-safe.
+class Views {
+ public:
+  Views(const RecognitionTask& task, const ViewSettings& settings);
+
+  const View& operator[](std::size_t i) const;
+
+ private:
+  std::function<RgbdCloud(std::size_t)> load_;
+  ViewSettings settings_;
+  struct Slot {
+    std::once_flag once;
+    std::unique_ptr<View> view;
+  };
+  mutable std::vector<Slot> slots_;
+};
+
+/// What the recognisers say of one test view; empty labels: nothing was recognised.
+struct Prediction {
+  std::size_t view = 0;  // of the task
+  ObjectLabel hough;
+  ObjectLabel nearest;
+};
+
+struct RecognitionSettings {
+  float bandwidth = 0.03f;    // of the Hough vote, metres
+  bool nearest_votes = true;  // the second recogniser, too; without, its labels are empty
+};
+
+/// One descriptor on all test views of a task.
+std::vector<Prediction> recognize_views(const RecognitionTask& task, const Views& views,
+                                        const Configuration& configuration, const RecognitionSettings& settings);
+
+nlohmann::ordered_json to_json(const RecognitionTask& task, const std::vector<Prediction>& predictions);
+
+/// A prediction with the truth, as a journal keeps it.
+struct Judgement {
+  ObjectLabel truth;
+  ObjectLabel hough;
+  ObjectLabel nearest;
+};
+std::vector<Judgement> judgements_of(const nlohmann::ordered_json& json);
+
+}  // namespace shortshot_bench::paper

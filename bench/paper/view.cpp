@@ -1,0 +1,72 @@
+#include "paper/view.hpp"
+
+#include <algorithm>
+#include <random>
+#include <utility>
+
+#include "io/view_of_cloud.hpp"
+
+namespace shortshot_bench::paper {
+namespace {
+
+using shortshot::KeyPoint;
+
+RgbdCloud averaged(const RgbdCloud& cloud, float voxel) {
+  std::vector<KeyPoint> means;
+  require(shortshot::sample_centroids(view_of_cloud(cloud), voxel, means));
+  RgbdCloud result;
+  for (const KeyPoint& mean : means) {
+    result.xyz.insert(result.xyz.end(), {mean.position.x, mean.position.y, mean.position.z});
+    if (cloud.has_colors()) result.rgb.insert(result.rgb.end(), {mean.color.r, mean.color.g, mean.color.b});
+  }
+  result.width = result.size();
+  result.height = 1;
+  result.viewpoint = cloud.viewpoint;
+  return result;
+}
+
+/// `count` of the key points at random; the same ones with every standard library.
+void thin_out(std::vector<KeyPoint>& keypoints, std::size_t count, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto others = static_cast<std::uint64_t>(keypoints.size() - i);
+    std::swap(keypoints[i], keypoints[i + static_cast<std::size_t>(random() * others >> 32)]);
+  }
+  keypoints.resize(count);
+}
+
+}  // namespace
+
+View::View(RgbdCloud cloud, const ViewSettings& settings)
+    : cloud_(settings.voxel > 0.0f ? averaged(cloud, settings.voxel) : std::move(cloud)), settings_(settings) {
+  const shortshot::CloudView view = view_of_cloud(cloud_);
+  require(shortshot::sample_centroids(view, settings.leaf, keypoints_));
+  if (settings.most_keypoints > 0 && keypoints_.size() > settings.most_keypoints) {
+    thin_out(keypoints_, settings.most_keypoints, settings.seed);
+  }
+  const shortshot::GridSearch near(view, settings.normal_radius);
+  require(shortshot::estimate_normals(view, near, settings.normal_radius, normals_, camera_of_cloud(cloud_)));
+  search_ = std::make_unique<shortshot::GridSearch>(view, settings.radius);
+  require(search_->status());
+}
+
+shortshot::Point View::center() const {
+  double sum[3] = {};
+  double count = 0.0;
+  const shortshot::CloudView view = view_of_cloud(cloud_);
+  for (std::size_t i = 0; i < view.size; ++i) {
+    const shortshot::Point p = shortshot::point(view, i);
+    if (!shortshot::is_finite(p)) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += static_cast<double>(shortshot::coordinate(p, axis));
+    count += 1.0;
+  }
+  const auto mean = [&](int axis) { return static_cast<float>(sum[axis] / count); };
+  return {mean(0), mean(1), mean(2)};
+}
+
+Described View::describe(const Configuration& configuration) const {
+  const shortshot::CloudView view = shortshot::with_normals(view_of_cloud(cloud_), normals_.data());
+  return configuration.describe(view, *search_, keypoints_, settings_.radius);
+}
+
+}  // namespace shortshot_bench::paper

@@ -1,0 +1,44 @@
+// One cloud of an experiment, ready to be described.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "io/rgbd_cloud.hpp"
+#include "paper/configuration.hpp"
+
+namespace shortshot_bench::paper {
+
+/// How a cloud is looked at; metres.
+struct ViewSettings {
+  float voxel = 0.0f;              // the cloud is averaged in voxels of this size first; 0: it is taken as it is
+  float radius = 0.04f;            // of the support and of the frame
+  float leaf = 0.02f;              // one key point in each voxel of this size
+  float normal_radius = 0.015f;    // for SHOT and CSHOT
+  std::size_t most_keypoints = 0;  // more are thinned out at random; 0: all are taken
+  std::uint32_t seed = 1;          // of that
+};
+
+/// Centroids of voxels as key points, normals towards the camera, and the index. Throws std::runtime_error if the cloud
+/// has no point. All functions may be called from several threads.
+class View {
+ public:
+  View(RgbdCloud cloud, const ViewSettings& settings);
+
+  const std::vector<shortshot::KeyPoint>& keypoints() const { return keypoints_; }
+  bool has_colors() const { return cloud_.has_colors(); }
+  shortshot::Point center() const;  // the mean of all valid points
+
+  Described describe(const Configuration& configuration) const;
+
+ private:
+  RgbdCloud cloud_;
+  ViewSettings settings_;
+  std::vector<shortshot::Normal> normals_;
+  std::vector<shortshot::KeyPoint> keypoints_;
+  std::unique_ptr<shortshot::GridSearch> search_;
+};
+
+}  // namespace shortshot_bench::paper

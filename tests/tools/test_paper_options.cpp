@@ -1,0 +1,101 @@
+// The command line of the paper's experiments, what they say of folders, and the claims' verdicts.
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "dataset_samples.hpp"
+#include "paper/claims.hpp"
+#include "paper/figures.hpp"
+#include "paper/matching_experiment.hpp"
+#include "paper/options.hpp"
+#include "paper/recognition_experiment.hpp"
+
+namespace {
+
+using namespace shortshot_bench::paper;
+
+bool parse(std::vector<const char*> arguments, PaperOptions& options, int& exit_code) {
+  arguments.insert(arguments.begin(), "paper");
+  return parse_options(static_cast<int>(arguments.size()), arguments.data(), options, exit_code);
+}
+
+}  // namespace
+
+TEST_CASE("paper: options") {
+  PaperOptions options;
+  int exit_code = -1;
+  REQUIRE(
+      parse({"matching", "a", "b", "--shard", "2/3", "--descriptor", "ssh32,scsh336", "--quick"}, options, exit_code));
+  CHECK(options.command == "matching");
+  CHECK(options.data == std::vector<std::string>{"a", "b"});
+  CHECK(options.out == "paper-matching");
+  CHECK((options.shard.k == 2 && options.shard.n == 3));
+  CHECK(options.descriptors == std::vector<std::string>{"ssh32", "scsh336"});
+  CHECK((options.quick && !options.check));
+  options = {};
+  REQUIRE(parse({"recognition", "a"}, options, exit_code));
+  CHECK(options.descriptors.size() == 6);
+}
+
+TEST_CASE("paper: wrong options end with exit code 2") {
+  for (const std::vector<const char*>& arguments : {std::vector<const char*>{},
+                                                    {"matching"},
+                                                    {"matching", "a", "--shard", "4/3"},
+                                                    {"cooking", "a"},
+                                                    {"merge", "a"}}) {
+    PaperOptions options;
+    int exit_code = -1;
+    CHECK_FALSE(parse(arguments, options, exit_code));
+    CHECK(exit_code == 2);
+  }
+}
+
+TEST_CASE("paper: data sets are found in a folder, or in the folders in it") {
+  const dataset_test::Folder folder;
+  folder.add("kinect/view_pairs.csv", "source,target,gt\na.pcd,b.pcd,m.xf\n");
+  folder.add("kinect/view_pairs_gt/m.xf", dataset_test::no_motion());
+  folder.add("other/notes.txt", "nothing");
+  PaperOptions options;
+  options.command = "matching";
+  options.descriptors = {"ssh32"};
+  for (const std::string& directory : {folder.path(), folder.path("kinect")}) {
+    options.data = {directory};
+    const Experiment experiment = matching_experiment(options);
+    REQUIRE(experiment.units.size() == 1);
+    CHECK(experiment.parameters.at("sets").at(0).at("name") == "kinect views");
+    CHECK(experiment.parameters.at("units").at(0) == experiment.units[0].key);
+  }
+  options.data = {folder.path("other")};
+  CHECK(dataset_test::error_in(folder, [&] {
+          static_cast<void>(matching_experiment(options));
+        }).find("SET/other: byte 0: expected a folder with object_scene_pairs.csv") == 0);
+  CHECK(dataset_test::error_in(folder, [&] {
+          static_cast<void>(recognition_experiment(options));
+        }).find("SET/other: byte 0: expected a folder with labels.csv") == 0);
+}
+
+TEST_CASE("paper: a figure that is not there, and data without a band, are no success") {
+  const std::vector<FigureValue> figures{{"set", "scsh336", "precision", {0.5, 0.4, 0.6}}};
+  const nlohmann::ordered_json band = {
+      {"data", "set"}, {"descriptor", "scsh336"}, {"figure", "success"}, {"at_least", 0.0}, {"at_most", 1.0}};
+  CHECK(broken_bands(figures, nlohmann::ordered_json::array({band})) ==
+        std::vector<std::string>{"set, scsh336, success: not measured"});
+  CHECK(broken_bands({}, nlohmann::ordered_json::array({band})) ==
+        std::vector<std::string>{"no band is known for these data"});
+  nlohmann::ordered_json other = band;
+  other["figure"] = "precision";
+  other["at_most"] = 0.45;
+  CHECK(broken_bands(figures, nlohmann::ordered_json::array({other})) ==
+        std::vector<std::string>{"set, scsh336, precision: 0.5 is not from 0 to 0.45"});
+}
+
+TEST_CASE("paper: claims hold, do not hold, or are undecided") {
+  const auto verdict_of = [](double low, double high) { return verdict({"", "", {0.0, low, high}, 0.1, ""}); };
+  CHECK(verdict_of(0.1, 0.3) == "holds");
+  CHECK(verdict_of(0.0, 0.3) == "undecided");
+  CHECK(verdict_of(0.0, 0.09) == "does not hold");
+  const shortshot_bench::campaign::Section section =
+      section_of({Claim{"The claim", "figure", {0.0, -1.0, 0.0}, 0.1, "The reason."}});
+  CHECK(section.text.find("The claim: does not hold. Likely reason: The reason.") != std::string::npos);
+}
