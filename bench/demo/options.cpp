@@ -1,22 +1,10 @@
 #include "demo/options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+
+#include "io/finite_and_positive.hpp"
 
 namespace shortshot_bench {
-namespace {
-
-/// CLI11's own number checks let "nan" and "inf" through.
-std::string finite_and_positive(const std::string& text) {
-  float value = 0.0f;
-  if (!CLI::detail::lexical_cast(text, value) || !std::isfinite(value) || !(value > 0.0f)) {
-    return "must be a finite number above zero, not '" + text + "'";
-  }
-  return {};
-}
-
-}  // namespace
-
 bool parse_options(int argc, const char* const* argv, DemoOptions& options, int& exit_code) {
   CLI::App app(
       "Describe the key points of RGB-D point clouds; without a file, of a tabletop scene made up on the spot.");

@@ -93,7 +93,7 @@ campaign::Plot figure_5(const std::vector<MemberResult>& members, const TaskResu
     plot.series.push_back(instances);
   }
   for (const auto& [name, figure] :
-       {std::pair("class, CSHOT", hough_class), std::pair("instance, CSHOT", hough_instance)}) {
+       {NamedFigure{"class, CSHOT", hough_class}, NamedFigure{"instance, CSHOT", hough_instance}}) {
     const double level = accuracy(correct(task.of.at("cshot1344"), figure));
     plot.series.push_back({name,
                            {static_cast<double>(*bins.begin()), static_cast<double>(*bins.rbegin())},

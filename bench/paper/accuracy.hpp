@@ -26,6 +26,11 @@ double hough_instance(const Judgement& j);
 double nearest_class(const Judgement& j);
 double nearest_instance(const Judgement& j);
 
+struct NamedFigure {
+  const char* name;
+  Correct correct;
+};
+
 /// One value for each view, grouped by the object that it shows: what a bootstrap over objects takes.
 using ByObject = std::vector<std::vector<double>>;
 

@@ -133,11 +133,13 @@ double t_diff(const std::array<double, 16>& a, const std::array<double, 16>& b) 
   return std::sqrt(sum);
 }
 
-MatchingSettings matching_settings(bool frames) {
+MatchingSettings matching_settings(const std::string& kind) {
+  const bool frames = kind == "frames";
   MatchingSettings settings;
   ViewSettings& view = settings.source;
   view.leaf = frames ? 0.02f : 0.01f;
   view.normal_radius = frames ? 0.03f : 0.01f;
+  if (kind == "views") settings.correct_distance = settings.inlier_distance = 0.005f;
   if (frames) {
     view.voxel = 0.01f;
     view.radius = 0.2f;

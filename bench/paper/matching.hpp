@@ -22,8 +22,8 @@ struct MatchingSettings {
   std::uint32_t seeds = 3;  // RANSAC runs of each pair
 };
 
-/// The protocol's, for object-scene pairs and views of objects, or for frames of a room.
-MatchingSettings matching_settings(bool frames);
+/// The protocol's for a PairSet of that name: "object-scene", "views" or "frames".
+MatchingSettings matching_settings(const std::string& kind);
 
 /// One run of RANSAC.
 struct Trial {

@@ -38,8 +38,9 @@ nlohmann::ordered_json to_json(const MatchingSettings& settings) {
 void add_set(Experiment& experiment, const std::string& folder, const datasets::PairSet& set,
              const PaperOptions& options) {
   const std::string name = std::filesystem::path(folder).lexically_normal().filename().string() + " " + set.name;
-  MatchingSettings settings = matching_settings(set.name == "frames");
+  MatchingSettings settings = matching_settings(set.name);
   settings.source.seed = settings.target.seed = options.seed;
+  if (options.tolerance_m > 0.0f) settings.correct_distance = settings.inlier_distance = options.tolerance_m;
   auto pairs = nlohmann::ordered_json::array();
   for (const std::size_t i : chosen_pairs(set, options.quick)) {
     const std::string key = name + "/" + set.pair_names[i];

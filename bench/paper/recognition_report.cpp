@@ -7,10 +7,6 @@ namespace {
 
 using campaign::Table;
 
-struct NamedFigure {
-  const char* name;
-  Correct correct;
-};
 constexpr NamedFigure named_figures[] = {{"class, Hough", hough_class},
                                          {"instance, Hough", hough_instance},
                                          {"class, nearest", nearest_class},
@@ -53,7 +49,7 @@ Table difference_table(const nlohmann::ordered_json& descriptors, const TaskResu
 void add_claims(const TaskResults& task, std::vector<Claim>& claims) {
   for (const char* d : {"scsh336", "scsh696"}) {
     if (task.of.count(d) == 0 || task.of.count("cshot1344") == 0) continue;
-    for (const auto& [what, figure] : {std::pair("class", hough_class), std::pair("instance", hough_instance)}) {
+    for (const auto& [what, figure] : {NamedFigure{"class", hough_class}, NamedFigure{"instance", hough_instance}}) {
       claims.push_back(
           {task.name + ": " + d + " recognises the " + what + " within a point of cshot1344, or better",
            "accuracy (Hough), difference to cshot1344",

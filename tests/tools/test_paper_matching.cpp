@@ -25,7 +25,7 @@ datasets::ViewPair pair_turned(double angle, const datasets::RigidMotion& claime
 }
 
 std::vector<Matching> matched(const datasets::ViewPair& pair, const std::vector<std::string>& names) {
-  return match_pair(pair, matching_settings(false), configurations_named(names));
+  return match_pair(pair, matching_settings("object-scene"), configurations_named(names));
 }
 
 double precision(const Matching& m) { return static_cast<double>(m.correct) / static_cast<double>(m.reciprocal); }

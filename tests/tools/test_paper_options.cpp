@@ -42,6 +42,8 @@ TEST_CASE("paper: wrong options end with exit code 2") {
   for (const std::vector<const char*>& arguments : {std::vector<const char*>{},
                                                     {"matching"},
                                                     {"matching", "a", "--shard", "4/3"},
+                                                    {"matching", "a", "--tolerance", "nan"},
+                                                    {"matching", "a", "--tolerance", "0"},
                                                     {"cooking", "a"},
                                                     {"merge", "a"}}) {
     PaperOptions options;
