@@ -51,9 +51,13 @@ void* aligned_alloc(std::size_t align, std::size_t size) noexcept {
 }
 #endif
 
-void* operator new(std::size_t size) {
+// The one that does not throw as well: a sanitizer's own would not go together with the delete below.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   ++allocations;
-  if (void* memory = std::malloc(size > 0 ? size : 1)) return memory;
+  return std::malloc(size > 0 ? size : 1);
+}
+void* operator new(std::size_t size) {
+  if (void* memory = operator new(size, std::nothrow)) return memory;
   throw std::bad_alloc();
 }
 // Not in line: GCC 12 would see free() of what operator new gave and warn, whatever that does.
