@@ -78,17 +78,26 @@ void run_campaign(const std::vector<Unit>& units, const nlohmann::ordered_json& 
   run_all(waiting, recorder, threads);
 }
 
+Results results_of(const JournalContent& content, const std::vector<std::string>& keys) {
+  Results results;
+  for (const std::string& key : keys) {
+    const auto found = content.results.find(key);
+    if (found == content.results.end()) {
+      results.missing.push_back(key);
+    } else {
+      results.finished.push_back({key, found->second});
+    }
+  }
+  return results;
+}
+
 Results read_results(const std::string& directory, const std::vector<Unit>& units,
                      const nlohmann::ordered_json& parameters) {
   const std::optional<JournalContent> content = read_journal(directory);
   if (content) check_parameters(directory, content->parameters, parameters);
-  Results results;
-  for (const Unit& unit : units) {
-    const bool found = content && content->results.count(unit.key) != 0;
-    if (found) results.finished.push_back({unit.key, content->results.at(unit.key)});
-    if (!found) results.missing.push_back(unit.key);
-  }
-  return results;
+  std::vector<std::string> keys;
+  for (const Unit& unit : units) keys.push_back(unit.key);
+  return results_of(content.value_or(JournalContent{}), keys);
 }
 
 }  // namespace shortshot_bench::campaign

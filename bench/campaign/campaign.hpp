@@ -38,7 +38,10 @@ struct Results {
   std::vector<std::string> missing{};  // keys of the others, in the same order
 };
 
-/// What the journal holds of these units. Throws InputError for whatever read_journal() and check_parameters() refuse.
+/// What a journal holds of the units with these keys.
+Results results_of(const JournalContent& content, const std::vector<std::string>& keys);
+
+/// The same of a folder's journal. Throws InputError for whatever read_journal() and check_parameters() refuse.
 /// A folder without a journal has no results.
 Results read_results(const std::string& directory, const std::vector<Unit>& units,
                      const nlohmann::ordered_json& parameters);

@@ -43,22 +43,14 @@ int check(const Findings& findings) {
 int report_on(const std::string& out, bool checked) {
   const std::optional<campaign::JournalContent> journal = campaign::read_journal(out);
   if (!journal) throw std::runtime_error(out + ": no results");
-  UnitResults results;
-  std::size_t missing = 0;
-  for (const auto& key : journal->parameters.at("units")) {
-    const auto found = journal->results.find(key);
-    if (found == journal->results.end()) {
-      ++missing;
-    } else {
-      results.push_back({found->first, found->second});
-    }
-  }
-  if (missing > 0) {
-    std::printf("%zu of %zu units are still to be done; the report is made of all of them\n", missing,
-                missing + results.size());
+  const std::vector<std::string> keys = journal->parameters.at("units");
+  const campaign::Results results = campaign::results_of(*journal, keys);
+  if (!results.missing.empty()) {
+    std::printf("%zu of %zu units are still to be done; the report is made of all of them\n", results.missing.size(),
+                keys.size());
     return 0;
   }
-  const Findings findings = findings_of(journal->parameters, results, out);
+  const Findings findings = findings_of(journal->parameters, results.finished, out);
   campaign::write_report(findings.report, out);
   for (const campaign::Section& section : findings.report.sections) {
     for (const campaign::NamedTable& named : section.tables) {

@@ -35,6 +35,19 @@ void thin_out(std::vector<KeyPoint>& keypoints, std::size_t count, std::uint32_t
   keypoints.resize(count);
 }
 
+shortshot::Point center_of(const shortshot::CloudView& cloud) {
+  double sum[3] = {};
+  double count = 0.0;
+  for (std::size_t i = 0; i < cloud.size; ++i) {
+    const shortshot::Point p = shortshot::point(cloud, i);
+    if (!shortshot::is_finite(p)) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += static_cast<double>(shortshot::coordinate(p, axis));
+    count += 1.0;
+  }
+  const auto mean = [&](int axis) { return static_cast<float>(sum[axis] / count); };
+  return {mean(0), mean(1), mean(2)};
+}
+
 }  // namespace
 
 View::View(RgbdCloud cloud, const ViewSettings& settings)
@@ -48,20 +61,7 @@ View::View(RgbdCloud cloud, const ViewSettings& settings)
   require(shortshot::estimate_normals(view, near, settings.normal_radius, normals_, camera_of_cloud(cloud_)));
   search_ = std::make_unique<shortshot::GridSearch>(view, settings.radius);
   require(search_->status());
-}
-
-shortshot::Point View::center() const {
-  double sum[3] = {};
-  double count = 0.0;
-  const shortshot::CloudView view = view_of_cloud(cloud_);
-  for (std::size_t i = 0; i < view.size; ++i) {
-    const shortshot::Point p = shortshot::point(view, i);
-    if (!shortshot::is_finite(p)) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += static_cast<double>(shortshot::coordinate(p, axis));
-    count += 1.0;
-  }
-  const auto mean = [&](int axis) { return static_cast<float>(sum[axis] / count); };
-  return {mean(0), mean(1), mean(2)};
+  center_ = center_of(view);
 }
 
 Described View::describe(const Configuration& configuration) const {

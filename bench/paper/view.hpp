@@ -29,7 +29,7 @@ class View {
 
   const std::vector<shortshot::KeyPoint>& keypoints() const { return keypoints_; }
   bool has_colors() const { return cloud_.has_colors(); }
-  shortshot::Point center() const;  // the mean of all valid points
+  const shortshot::Point& center() const { return center_; }  // the mean of all valid points
 
   Described describe(const Configuration& configuration) const;
 
@@ -38,6 +38,7 @@ class View {
   ViewSettings settings_;
   std::vector<shortshot::Normal> normals_;
   std::vector<shortshot::KeyPoint> keypoints_;
+  shortshot::Point center_{};
   std::unique_ptr<shortshot::GridSearch> search_;
 };
 
