@@ -5,7 +5,7 @@
 control := m7
 kernel_headers := $(wildcard $(root)/include/shortshot/*.hpp $(root)/include/shortshot/*/*.hpp)
 control_cases := 1:no_heap 2:no_heap 3:no_exceptions 4:no_double 5:no_function-local_statics 6:no_printing \
-  7:no_static_initialisers 8:no_writable_constants 9:no_RTTI 11:no_fused_multiply-add
+  7:no_static_initializers 8:no_writable_constants 9:no_RTTI 11:no_fused_multiply-add
 linker_cases := 3 7 8
 case_of = $(word 1,$(subst :, ,$1))
 promise_of = $(subst _, ,$(word 2,$(subst :, ,$1)))

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <set>
 
-#include "campaign/plot.hpp"
 #include "paper/accuracy.hpp"
+#include "paper/campaign/plot.hpp"
 #include "paper/claims.hpp"
 #include "paper/recognition_experiment.hpp"
 
@@ -67,7 +67,7 @@ std::set<int> values_of(const std::vector<MemberResult>& members, int MemberResu
 
 double accuracy(const ByObject& values) { return 100.0 * over_objects(values).value; }
 
-/// Accuracy against bins, a colour for each colour grid, CSHOT as a level line; above, the bytes of n_c = 24.
+/// Accuracy against bins, a color for each color grid, CSHOT as a level line; above, the bytes of n_c = 24.
 campaign::Plot figure_5(const std::vector<MemberResult>& members, const TaskResults& task) {
   campaign::Plot plot;
   plot.title = task.name;
@@ -128,13 +128,13 @@ void add_claim(const std::vector<MemberResult>& members, const std::string& text
 
 void add_claims(const std::vector<MemberResult>& members, const std::string& data, std::vector<Claim>& claims) {
   const std::string more =
-      "These objects have few colours, each spread over large areas, which a coarser grid tells "
+      "These objects have few colors, each spread over large areas, which a coarser grid tells "
       "apart as well.";
   const std::string few =
-      "Nearly all that a histogram of distances to one reference colour tells is told by fewer bins.";
+      "Nearly all that a histogram of distances to one reference color tells is told by fewer bins.";
   add_claim(members, data + ": n_c = 24 is better than 16", &MemberResult::n_c, 16, 24, 0.0, false, more, claims);
   add_claim(members, data + ": n_c = 32 gains less than a point over 24", &MemberResult::n_c, 24, 32, -0.01, true,
-            "More colour cells still pay here.", claims);
+            "More color cells still pay here.", claims);
   add_claim(members, data + ": h = 15 is better than 10", &MemberResult::h, 10, 15, 0.0, false, few, claims);
   add_claim(members, data + ": h = 30 is better than 15", &MemberResult::h, 15, 30, 0.0, false, few, claims);
   add_claim(members, data + ": h = 35 gains less than a point over 30", &MemberResult::h, 30, 35, -0.01, true,

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/statistics.hpp"
+#include "paper/campaign/statistics.hpp"
 #include "paper/experiment.hpp"
 #include "paper/recognition.hpp"
 
@@ -19,7 +19,7 @@ struct TaskResults {
 
 std::vector<TaskResults> tasks_of(const nlohmann::ordered_json& parameters, const UnitResults& results);
 
-/// 1 where a recogniser is right, else 0.
+/// 1 where a recognizer is right, else 0.
 using Correct = double (*)(const Judgement&);
 double hough_class(const Judgement& j);
 double hough_instance(const Judgement& j);

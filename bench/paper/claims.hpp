@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "campaign/report.hpp"
-#include "campaign/statistics.hpp"
+#include "paper/campaign/report.hpp"
+#include "paper/campaign/statistics.hpp"
 
 namespace shortshot_bench::paper {
 

@@ -7,11 +7,11 @@
 #include <utility>
 #include <vector>
 
-#include "campaign/campaign.hpp"
-#include "campaign/report.hpp"
-#include "campaign/statistics.hpp"
-#include "datasets/dataset_files.hpp"
+#include "paper/campaign/campaign.hpp"
+#include "paper/campaign/report.hpp"
+#include "paper/campaign/statistics.hpp"
 #include "paper/configuration.hpp"
+#include "paper/datasets/dataset_files.hpp"
 #include "paper/options.hpp"
 #include "paper/view.hpp"
 

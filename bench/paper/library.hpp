@@ -1,4 +1,4 @@
-// The library with what needs Eigen: matching, poses, the recogniser.
+// The library with what needs Eigen: matching, poses, the recognizer.
 #pragma once
 
 // clang-format off: the umbrella has them only where Eigen was included before it.

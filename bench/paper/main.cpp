@@ -3,11 +3,11 @@
 #include <exception>
 #include <stdexcept>
 
-#include "campaign/atomic_file.hpp"
+#include "paper/campaign/atomic_file.hpp"
 #include "paper/matching_experiment.hpp"
 #include "paper/options.hpp"
 #include "paper/recognition_experiment.hpp"
-#include "scaling/json_rows.hpp"
+#include "speed/scaling/json_rows.hpp"
 
 namespace {
 

@@ -4,14 +4,14 @@
 #include <filesystem>
 #include <numeric>
 
-#include "datasets/pair_sets.hpp"
+#include "paper/datasets/pair_sets.hpp"
 #include "paper/matching.hpp"
 
 namespace shortshot_bench::paper {
 namespace {
 
 constexpr std::size_t quick_pairs = 5;  // of each set
-constexpr std::size_t frame_step = 5;   // neighbouring frames of a room are many and much alike
+constexpr std::size_t frame_step = 5;   // neighboring frames of a room are many and much alike
 
 /// Every `step`-th pair in the order of rotation.
 std::vector<std::size_t> chosen_pairs(const datasets::PairSet& set, bool quick) {

@@ -3,7 +3,7 @@
 #include <functional>
 #include <map>
 
-#include "campaign/plot.hpp"
+#include "paper/campaign/plot.hpp"
 #include "paper/claims.hpp"
 #include "paper/matching.hpp"
 #include "paper/matching_experiment.hpp"
@@ -213,8 +213,8 @@ void add_claims(const SetResults& set, std::vector<Claim>& claims) {
     claims.push_back({set.name + ": " + d + " matches key points as well as cshot1344",
                       "precision, difference to cshot1344", over_pairs(minus(set.figures(d, precision), baseline)),
                       -0.1 * campaign::mean(baseline),
-                      "The colour of one key point is the reference of all its colour distances, and SCSH spends more "
-                      "of its few dimensions on colour than on the normals, which tell CSHOT about shape."});
+                      "The color of one key point is the reference of all its color distances, and SCSH spends more "
+                      "of its few dimensions on color than on the normals, which tell CSHOT about shape."});
   }
 }
 
@@ -234,7 +234,7 @@ Findings matching_report(const nlohmann::ordered_json& parameters, const UnitRes
         {set.name,
          std::to_string(set.rotation_deg.size()) +
              " pairs. Means over pairs with 95 % bootstrap intervals; precision: correct of all reciprocal "
-             "correspondences; match rate: correct nearest neighbours of all key points that have a counterpart; "
+             "correspondences; match rate: correct nearest neighbors of all key points that have a counterpart; "
              "success: rotation within 5 degrees and translation within 2 cm. A pair without a pose counts as T_diff " +
              std::to_string(static_cast<int>(t_diff_if_lost)) + ".",
          {{prefix + "matching", main_table(set, findings.figures)},

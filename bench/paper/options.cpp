@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <stdexcept>
 
-#include "io/finite_and_positive.hpp"
+#include "tools/io/finite_and_positive.hpp"
 
 namespace shortshot_bench::paper {
 namespace {
@@ -46,7 +46,7 @@ bool parse_options(int argc, const char* const* argv, PaperOptions& options, int
     command->add_option("--descriptor", options.descriptors, "those to compare, the baseline first (all; quick: three)")
         ->delimiter(',');
   }
-  matching->add_option("--tolerance", options.tolerance_m, "metres by which a correct match and an inlier may miss")
+  matching->add_option("--tolerance", options.tolerance_m, "meters by which a correct match and an inlier may miss")
       ->check(finite_and_positive);
   CLI::App* const merge = app.add_subcommand("merge", "bring the results of shards together, and report on them");
   merge->add_option("FOLDER", options.data, "folders of results")->required();

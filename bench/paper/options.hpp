@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "campaign/shard.hpp"
+#include "paper/campaign/shard.hpp"
 
 namespace shortshot_bench::paper {
 

@@ -4,7 +4,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "io/input_error.hpp"
+#include "tools/io/input_error.hpp"
 
 namespace shortshot_bench::paper {
 namespace {
@@ -64,7 +64,7 @@ std::size_t RecognitionTask::tests() const {
 
 std::vector<RecognitionTask> tasks_of(const datasets::ViewSet& set) {
   RecognitionTask task{set.name, {}, set.split == datasets::Split::leave_one_sequence_out, set.load};
-  for (const datasets::LabelledView& v : set.views) {
+  for (const datasets::LabeledView& v : set.views) {
     task.views.push_back({v.file, {v.object_class, v.instance}, v.sequence, v.is_training, v.is_test});
   }
   if (!task.leave_one_sequence_out) return {task};

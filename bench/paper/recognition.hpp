@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "datasets/view_sets.hpp"
-#include "datasets/virtual_views.hpp"
 #include "paper/configuration.hpp"
+#include "paper/datasets/view_sets.hpp"
+#include "paper/datasets/virtual_views.hpp"
 #include "paper/view.hpp"
 
 namespace shortshot_bench::paper {
@@ -38,7 +38,7 @@ struct RecognitionTask {
   bool leave_one_sequence_out;  // each sequence once as test, all others to train; else is_training and is_test say
   std::function<RgbdCloud(std::size_t)> load;
 
-  std::size_t tests() const;  // views that are recognised
+  std::size_t tests() const;  // views that are recognized
 };
 
 /// A set of real views by its own split. "segments" leaves out one sequence at a time and has a second task, its other
@@ -68,7 +68,7 @@ class Views {
   mutable std::vector<Slot> slots_;
 };
 
-/// What the recognisers say of one test view; empty labels: nothing was recognised.
+/// What the recognizers say of one test view; empty labels: nothing was recognized.
 struct Prediction {
   std::size_t view = 0;  // of the task
   ObjectLabel hough;
@@ -76,8 +76,8 @@ struct Prediction {
 };
 
 struct RecognitionSettings {
-  float bandwidth = 0.03f;    // of the Hough vote, metres
-  bool nearest_votes = true;  // the second recogniser, too; without, its labels are empty
+  float bandwidth = 0.03f;    // of the Hough vote, meters
+  bool nearest_votes = true;  // the second recognizer, too; without, its labels are empty
 };
 
 /// One descriptor on all test views of a task.

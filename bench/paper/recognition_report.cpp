@@ -51,11 +51,11 @@ void add_claims(const TaskResults& task, std::vector<Claim>& claims) {
     if (task.of.count(d) == 0 || task.of.count("cshot1344") == 0) continue;
     for (const auto& [what, figure] : {NamedFigure{"class", hough_class}, NamedFigure{"instance", hough_instance}}) {
       claims.push_back(
-          {task.name + ": " + d + " recognises the " + what + " within a point of cshot1344, or better",
+          {task.name + ": " + d + " recognizes the " + what + " within a point of cshot1344, or better",
            "accuracy (Hough), difference to cshot1344",
            over_objects(difference(correct(task.of.at(d), figure), correct(task.of.at("cshot1344"), figure))), -0.01,
            "Its shape part counts points and has no normals; where shape tells the objects apart, or the "
-           "colours change with the light, CSHOT's normals make up for that."});
+           "colors change with the light, CSHOT's normals make up for that."});
     }
   }
 }

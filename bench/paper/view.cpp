@@ -4,7 +4,7 @@
 #include <random>
 #include <utility>
 
-#include "io/view_of_cloud.hpp"
+#include "tools/io/view_of_cloud.hpp"
 
 namespace shortshot_bench::paper {
 namespace {

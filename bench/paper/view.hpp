@@ -6,12 +6,12 @@
 #include <memory>
 #include <vector>
 
-#include "io/rgbd_cloud.hpp"
 #include "paper/configuration.hpp"
+#include "tools/io/rgbd_cloud.hpp"
 
 namespace shortshot_bench::paper {
 
-/// How a cloud is looked at; metres.
+/// How a cloud is looked at; meters.
 struct ViewSettings {
   float voxel = 0.0f;              // the cloud is averaged in voxels of this size first; 0: it is taken as it is
   float radius = 0.04f;            // of the support and of the frame

@@ -1,14 +1,14 @@
-// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initialiser, no
+// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initializer, no
 // libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
 // <type_traits> and <utility> of the standard library.
 #pragma once
 
-#include "binary.hpp"
-#include "describe_at.hpp"
-#include "normals.hpp"
-#include "quantize.hpp"
+#include "frame/normal.hpp"
+#include "kernel/describe_at.hpp"
 #include "search/brute.hpp"
-#include "search/grid.hpp"
+#include "search/cell_index.hpp"
 #include "search/organized.hpp"
 #include "self_check.hpp"
+#include "store/binary.hpp"
+#include "store/quantize.hpp"
 #include "version.hpp"

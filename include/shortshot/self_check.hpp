@@ -1,10 +1,10 @@
 // shortshot/self_check.hpp: does the build at hand keep the promise of the same bits everywhere?
 #pragma once
 
+#include "base/math.hpp"
+#include "base/simd.hpp"
+#include "base/unfused.hpp"
 #include "config.hpp"
-#include "math.hpp"
-#include "rounded.hpp"
-#include "simd.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -13,7 +13,7 @@ inline namespace SHORTSHOT_ISA {
 /// GCC and clang are kept from fusing a * b + c into one rounding by rounded() wherever their CPUs can; other compilers
 /// and CPUs may need -ffp-contract=off. False where something is fused nevertheless, or where sums are regrouped and
 /// NaN ignored (-ffast-math, which the library does not support). Descriptors are then still descriptors, but may
-/// differ in their last bits from those of other builds; under -ffast-math, NaN points may be taken for neighbours. It
+/// differ in their last bits from those of other builds; under -ffast-math, NaN points may be taken for neighbors. It
 /// speaks for the flags of the translation unit that calls it. No allocation, reentrant.
 [[nodiscard]] inline bool self_check() noexcept {
   // Volatile: what is computed while compiling says nothing about the program.

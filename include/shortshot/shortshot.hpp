@@ -1,29 +1,29 @@
-// shortshot: short colour-shape descriptors (SSH, SCSH) of RGB-D point clouds on small CPUs, and their parents (SHOT,
+// shortshot: short color-shape descriptors (SSH, SCSH) of RGB-D point clouds on small CPUs, and their parents (SHOT,
 // CSHOT, B-SHOT).
 //
 // The umbrella. On bare metal it is the kernel: no heap, no exceptions, no operating system. Where there is an
 // operating system it adds what allocates: extract() for many key points, sampling, a grid with memory of its own.
 // Include <nanoflann.hpp> BEFORE it and NanoflannSearch is there as well; with <Eigen/Core>, view_eigen(), and on an
-// operating system matching, poses and the recogniser.
+// operating system matching, poses and the recognizer.
 #pragma once
 
-#include "adapters/point_cloud2.hpp"
-#include "adapters/structs.hpp"
+#include "cloud/view_of.hpp"
+#include "cloud/view_point_cloud2.hpp"
 #include "kernel.hpp"
 
 #if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
-#include "adapters/pcl.hpp"
-#include "estimate_normals.hpp"
-#include "extract.hpp"
-#include "layout.hpp"
-#include "rows.hpp"
-#include "sample.hpp"
-#include "search/grid_hosted.hpp"
+#include "batch/estimate_normals.hpp"
+#include "batch/extract.hpp"
+#include "batch/keypoints.hpp"
+#include "batch/to_pcl.hpp"
+#include "descriptor/layout_text.hpp"
+#include "recognition/descriptor_rows.hpp"
+#include "search/grid_search.hpp"
 #if defined(EIGEN_WORLD_VERSION)
-#include "match.hpp"
-#include "pose.hpp"
-#include "recognizer.hpp"
-#include "recognizer_model.hpp"
+#include "recognition/match.hpp"
+#include "recognition/pose.hpp"
+#include "recognition/recognizer.hpp"
+#include "recognition/recognizer_model.hpp"
 #endif
 #endif
 
@@ -32,5 +32,5 @@
 #endif
 
 #if defined(EIGEN_WORLD_VERSION)
-#include "adapters/eigen.hpp"
+#include "cloud/view_eigen.hpp"
 #endif

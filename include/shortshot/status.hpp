@@ -17,11 +17,11 @@ enum class [[nodiscard]] Status : std::uint8_t {
   bad_radius,          ///< a radius is not a finite number above zero, or its square leaves the range of float
   bad_keypoint,        ///< a key point's index lies outside the cloud
   invalid_keypoint,    ///< a key point's position is not finite
-  missing_colors,      ///< the descriptor needs colours and the cloud has none
+  missing_colors,      ///< the descriptor needs colors and the cloud has none
   missing_normals,     ///< the descriptor needs normals and the cloud has none
-  too_few_neighbors,   ///< no neighbour to describe, or fewer than five for a local reference frame or for SHOT
-  too_many_neighbors,  ///< the neighbourhood does not fit the workspace; Neighborhood::found says what it takes
-  ambiguous_frame,     ///< collinear or symmetric neighbourhood: two principal axes cannot be told apart
+  too_few_neighbors,   ///< no neighbor to describe, or fewer than five for a local reference frame or for SHOT
+  too_many_neighbors,  ///< the neighborhood does not fit the workspace; Neighborhood::found says what it takes
+  ambiguous_frame,     ///< collinear or symmetric neighborhood: two principal axes cannot be told apart
   bad_frame,           ///< a given frame is not orthonormal, or not finite
   bad_viewpoint,       ///< a viewpoint is not finite
   bad_leaf,            ///< a voxel size is not a finite number above zero
@@ -31,8 +31,8 @@ enum class [[nodiscard]] Status : std::uint8_t {
   bad_option,          ///< an option is outside of the range that its docstring gives
   too_few_pairs,       ///< fewer than three correspondences
   no_pose,             ///< no rigid motion that at least three correspondences agree on
-  not_trained,         ///< the recogniser has no training view with a descriptor
-  not_a_model,         ///< the bytes are no recogniser's
+  not_trained,         ///< the recognizer has no training view with a descriptor
+  not_a_model,         ///< the bytes are no recognizer's
   other_version,       ///< the model was written by a version with another format
   other_descriptor,    ///< descriptors of another layout than the model was trained with
   damaged_model,       ///< the model is truncated, or its checksum or contents are wrong
@@ -53,11 +53,11 @@ inline namespace SHORTSHOT_ISA {
     case Status::bad_radius: return "a radius must be finite and above zero";
     case Status::bad_keypoint: return "the key point's index lies outside the cloud";
     case Status::invalid_keypoint: return "the key point is not finite";
-    case Status::missing_colors: return "the descriptor needs colours and the cloud has none";
+    case Status::missing_colors: return "the descriptor needs colors and the cloud has none";
     case Status::missing_normals: return "the descriptor needs normals and the cloud has none";
-    case Status::too_few_neighbors: return "too few neighbours within the radius";
-    case Status::too_many_neighbors: return "more neighbours than the workspace can hold";
-    case Status::ambiguous_frame: return "the neighbourhood is too symmetric for a local reference frame";
+    case Status::too_few_neighbors: return "too few neighbors within the radius";
+    case Status::too_many_neighbors: return "more neighbors than the workspace can hold";
+    case Status::ambiguous_frame: return "the neighborhood is too symmetric for a local reference frame";
     case Status::bad_frame: return "the given frame is not orthonormal";
     case Status::bad_viewpoint: return "the viewpoint is not finite";
     case Status::bad_leaf: return "a voxel size must be finite and above zero";
@@ -67,8 +67,8 @@ inline namespace SHORTSHOT_ISA {
     case Status::bad_option: return "an option is out of its range";
     case Status::too_few_pairs: return "a pose takes three correspondences or more";
     case Status::no_pose: return "no rigid motion fits three correspondences or more";
-    case Status::not_trained: return "the recogniser has no training view";
-    case Status::not_a_model: return "not a recogniser's model";
+    case Status::not_trained: return "the recognizer has no training view";
+    case Status::not_a_model: return "not a recognizer's model";
     case Status::other_version: return "the model's format is of another version";
     case Status::other_descriptor: return "the model was trained with another descriptor";
     case Status::damaged_model: return "the model is damaged";

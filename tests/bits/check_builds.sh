@@ -14,9 +14,9 @@ if [ "$1" = --compile ]; then
   echo "$program: $*"
   cd "$root"
   set -- "$@" -std=c++17 -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror -Iinclude -Ibench
-  "$@" -ffp-contract=off -c -o "$program.scene.o" bench/scene/tabletop.cpp  # what is described must be the same, too
+  "$@" -ffp-contract=off -c -o "$program.scene.o" bench/tools/scene/tabletop.cpp  # what is described must be the same, too
   exec "$@" -o "$program" \
-    tests/bits/hashes.cpp bench/golden/case.cpp bench/golden/array.cpp bench/golden/known_arrays.cpp "$program.scene.o"
+    tests/bits/hashes.cpp bench/tools/golden/case.cpp bench/tools/golden/array.cpp bench/tools/golden/known_arrays.cpp "$program.scene.o"
 fi
 
 directory=$1

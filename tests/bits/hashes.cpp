@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "golden/case.hpp"
-#include "scene/tabletop.hpp"
 #include "shortshot/shortshot.hpp"
+#include "tools/golden/case.hpp"
+#include "tools/scene/tabletop.hpp"
 
 namespace {
 
@@ -149,7 +149,7 @@ void print_scene() {
 void print_case(const std::string& folder) {
   const shortshot_bench::golden::Case c = shortshot_bench::golden::read_case(folder);
   CloudView cloud = c.cloud();
-  if (c.points.empty()) cloud = view_xyz_rgb(nullptr, c.rgb.data(), c.rgb.size() / 3);  // a table of colours
+  if (c.points.empty()) cloud = view_xyz_rgb(nullptr, c.rgb.data(), c.rgb.size() / 3);  // a table of colors
   Input input{std::filesystem::path(folder + "/").parent_path().filename().string(), cloud,
               Radius::from_double(c.radius.value_or(1.0)), c.keypoints, std::vector<Frame>(c.frames.size() / 9)};
   static_assert(sizeof(Frame) == 9 * sizeof(float), "a frame is its three axes");

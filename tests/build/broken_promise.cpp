@@ -22,7 +22,7 @@ float broken() {
 }
 #elif CASE == 6   // no printing
 void broken(shortshot::Status status) { std::printf("%s %d\n", shortshot::message(status), static_cast<int>(status)); }
-#elif CASE == 7   // no static initialisers
+#elif CASE == 7   // no static initializers
 volatile int source = 1;
 int broken = source;
 #elif CASE == 8   // no writable constants

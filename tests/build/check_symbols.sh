@@ -54,7 +54,7 @@ done
 # Sections with something in them.
 for section in $("${OBJDUMP:-objdump}" -h "$object" | awk '$1 ~ /^[0-9]+$/ && $3 !~ /^0+$/ { print $2 }'); do
   case $section in
-    .init_array* | .ctors* | .preinit_array*) broken "no static initialisers" "$section" ;;
+    .init_array* | .ctors* | .preinit_array*) broken "no static initializers" "$section" ;;
     .data | .data.*) broken "no writable constants" "$section" ;;
     .gcc_except_table* | .ARM.extab*) broken "no exceptions" "$section" ;;
   esac
@@ -85,5 +85,5 @@ if [ -n "$report" ]; then
   printf '%s' "$report"
   exit 1
 fi
-echo "kept: no heap, exceptions, RTTI, printing, double, fused multiply-add, static initialisers, function-local statics," \
+echo "kept: no heap, exceptions, RTTI, printing, double, fused multiply-add, static initializers, function-local statics," \
   "writable constants"

@@ -1,4 +1,4 @@
-// Calls what the firmware page's example exports, with a coloured patch of a paraboloid: bytes of a descriptor of
+// Calls what the firmware page's example exports, with a colored patch of a paraboloid: bytes of a descriptor of
 // length 1, or zeros and a sentence where there is nothing to describe.
 #include <cstdint>
 #include <cstdio>

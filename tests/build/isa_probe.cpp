@@ -19,7 +19,7 @@ shortshot::Normal normals[count];
 IsaProbe PROBE() {
   static float xyz[3 * count];
   static unsigned char rgb[3 * count];
-  for (std::size_t i = 0; i < count; ++i) {  // a saddle with a gradient of colours
+  for (std::size_t i = 0; i < count; ++i) {  // a saddle with a gradient of colors
     const float x = 0.002f * (static_cast<float>(i % width) - 17.3f);
     const float y = 0.002f * (static_cast<float>(i / width) - 21.1f);
     xyz[3 * i] = x;

@@ -28,7 +28,7 @@ shortshot::Status describe(const shortshot::CloudView& cloud, const Search& sear
   return shortshot::describe_at<D>(cloud, search, index, radius, workspace, descriptor);
 }
 
-/// With colours that were converted before, in a given frame.
+/// With colors that were converted before, in a given frame.
 shortshot::Status describe_packed(const shortshot::CloudView& cloud, std::size_t index, float radius) {
   using shortshot::Status;
   using Rule = shortshot::PublishedLab;

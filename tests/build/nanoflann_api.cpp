@@ -1,4 +1,4 @@
-// The nanoflann leaf finds the neighbours that looking at every point finds. Compiled twice: with the installed
+// The nanoflann leaf finds the neighbors that looking at every point finds. Compiled twice: with the installed
 // nanoflann and with a stand-in that has the newer versions' interface (fake_nanoflann/).
 #include <algorithm>
 #include <cstdint>
@@ -37,11 +37,11 @@ int main() {
     const shortshot::Point center = shortshot::point(cloud, i);
     const auto found = neighbors(tree, center, 0.15f);
     if (found != neighbors(shortshot::BruteSearch{cloud}, center, 0.15f)) {
-      std::printf("other neighbours around point %zu\n", i);
+      std::printf("other neighbors around point %zu\n", i);
       return 1;
     }
     sum += found.size();
   }
-  std::printf("nanoflann 0x%x: the same %zu neighbours\n", NANOFLANN_VERSION, sum);
+  std::printf("nanoflann 0x%x: the same %zu neighbors\n", NANOFLANN_VERSION, sum);
   return sum > 0 ? 0 : 1;
 }

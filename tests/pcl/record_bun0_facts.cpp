@@ -1,4 +1,4 @@
-// Prints the tables of tests/tools/bun0_facts.hpp, computed by PCL, and says whether they are those that stand there.
+// Prints the tables of tests/bench/bun0_facts.hpp, computed by PCL, and says whether they are those that stand there.
 // Reads the golden folder of that name. Exit code 1 if a number differs, 2 if the folder cannot be used.
 #include <pcl/features/normal_3d.h>
 #include <pcl/features/shot.h>
@@ -13,8 +13,8 @@
 #include <iterator>
 #include <vector>
 
-#include "golden/case.hpp"
 #include "tools/bun0_facts.hpp"
+#include "tools/golden/case.hpp"
 
 namespace {
 
@@ -118,7 +118,7 @@ int main(int argc, char** argv) {
   }
   try {
     if (record_all(argv[1])) return 0;
-    std::fprintf(stderr, "these are not the numbers in tests/tools/bun0_facts.hpp\n");
+    std::fprintf(stderr, "these are not the numbers in tests/bench/bun0_facts.hpp\n");
     return 1;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "io/read_cloud.hpp"
-#include "scene/tabletop.hpp"
 #include "shortshot/shortshot.hpp"
+#include "tools/io/read_cloud.hpp"
 #include "tools/real_data.hpp"
+#include "tools/scene/tabletop.hpp"
 
 namespace {
 

@@ -67,7 +67,7 @@ struct TestCloud {
   }
 };
 
-/// A curved patch, 20 cm wide and a metre away, with a chequered, speckled texture.
+/// A curved patch, 20 cm wide and a meter away, with a chequered, speckled texture.
 inline TestCloud curved_surface(std::uint32_t seed, std::size_t points) {
   Random random(seed);
   TestCloud cloud;
@@ -119,7 +119,7 @@ inline TestCloud with_random_normals(TestCloud cloud, std::uint32_t seed) {
   return cloud;
 }
 
-/// Points in a box of 20 cm, denser towards one corner, each of any colour.
+/// Points in a box of 20 cm, denser towards one corner, each of any color.
 inline TestCloud blob(std::uint32_t seed, std::size_t points) {
   Random random(seed);
   const auto skewed = [&random] {
@@ -136,12 +136,12 @@ inline TestCloud blob(std::uint32_t seed, std::size_t points) {
   return cloud;
 }
 
-/// All greys, a lattice of 17^3 colours over the whole gamut, and random ones.
+/// All grays, a lattice of 17^3 colors over the whole gamut, and random ones.
 inline std::vector<ss::Rgb> many_colors() {
   std::vector<ss::Rgb> colors;
   for (int v = 0; v < 256; ++v) {
-    const auto grey = static_cast<std::uint8_t>(v);
-    colors.push_back({grey, grey, grey});
+    const auto gray = static_cast<std::uint8_t>(v);
+    colors.push_back({gray, gray, gray});
   }
   for (int k = 0; k < 17 * 17 * 17; ++k) {
     const auto level = [](int step) { return static_cast<std::uint8_t>(std::min(255, 16 * step)); };
@@ -152,7 +152,7 @@ inline std::vector<ss::Rgb> many_colors() {
   return colors;
 }
 
-/// Room for a gathered neighbourhood of any size.
+/// Room for a gathered neighborhood of any size.
 struct Room {
   explicit Room(std::size_t n) : floats(4 * n), index(n), capacity(static_cast<std::uint32_t>(n)) {}
   [[nodiscard]] ss::Neighborhood neighborhood() {
@@ -165,7 +165,7 @@ struct Room {
   std::uint32_t capacity;
 };
 
-/// The neighbours that a search finds, as a sorted list: a neighbour offered twice stays visible.
+/// The neighbors that a search finds, as a sorted list: a neighbor offered twice stays visible.
 template <class Search>
 std::vector<std::uint32_t> found_by(const Search& search, const ss::Point& center, ss::Radius radius, Room& room) {
   ss::Neighborhood n = room.neighborhood();
@@ -176,7 +176,7 @@ std::vector<std::uint32_t> found_by(const Search& search, const ss::Point& cente
   return indices;
 }
 
-/// Every point of the view is that of the cloud, and its colour too, where it has colours.
+/// Every point of the view is that of the cloud, and its color too, where it has colors.
 inline void require_same_points(const ss::CloudView& view, const TestCloud& cloud, bool colors) {
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const ss::Point p = ss::point(view, i);

@@ -1,4 +1,4 @@
-// A naive oracle: neighbours, SHOT frame, CIELAB and descriptors written from their definitions, in double precision
+// A naive oracle: neighbors, SHOT frame, CIELAB and descriptors written from their definitions, in double precision
 // where the definitions do not say float. It shares no code with the library and is slow on purpose.
 #pragma once
 
@@ -35,14 +35,14 @@ inline std::vector<Neighbor> neighbors(const std::vector<float>& xyz, const Vec3
 }
 
 struct ShotFrame {
-  bool exists = false;  // five neighbours besides the key point and its copies
+  bool exists = false;  // five neighbors besides the key point and its copies
   bool clear = false;   // no vote hangs on a rounding and no two principal axes are close
   Vec3f x{}, y{}, z{};
 };
 
 namespace detail {
 
-/// Turns the axis as the vote says; false if neighbours in the axis' normal plane could turn the result.
+/// Turns the axis as the vote says; false if neighbors in the axis' normal plane could turn the result.
 inline bool vote(const std::vector<Eigen::Vector3d>& v, double radius, Eigen::Vector3d& axis) {
   const auto n = static_cast<long>(v.size());
   long plus = 0;
@@ -63,7 +63,7 @@ inline bool vote(const std::vector<Eigen::Vector3d>& v, double radius, Eigen::Ve
 
 }  // namespace detail
 
-/// SHOT's frame of sorted neighbours gathered with this radius.
+/// SHOT's frame of sorted neighbors gathered with this radius.
 inline ShotFrame shot_frame(const std::vector<Neighbor>& sorted, double radius) {
   std::vector<Eigen::Vector3d> v;
   Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
@@ -132,7 +132,7 @@ enum class Voting { published, additive, hard, multilinear };
 
 struct Part {
   int radial, elevation, azimuth;
-  int bins = 0;  // 0: no histogram and no colour
+  int bins = 0;  // 0: no histogram and no color
 };
 
 struct Config {
@@ -144,7 +144,7 @@ struct Config {
 
 struct Description {
   std::vector<double> values;  // L2 norm 1
-  double border = 1.0;         // smallest distance, in cells, of any neighbour from a place where the voting rule jumps
+  double border = 1.0;         // smallest distance, in cells, of any neighbor from a place where the voting rule jumps
 };
 
 namespace detail {
@@ -213,7 +213,7 @@ inline void vote(const Part& part, Voting voting, const std::vector<AxisPosition
 
 }  // namespace detail
 
-/// The descriptor of sorted neighbours. `rgb` may be empty if no part has bins.
+/// The descriptor of sorted neighbors. `rgb` may be empty if no part has bins.
 inline Description describe(const std::vector<Neighbor>& sorted, const std::vector<std::uint8_t>& rgb,
                             const Bytes3& reference, const ShotFrame& frame, float radius, const Config& config) {
   Description result;

@@ -17,23 +17,23 @@ namespace oracle {
 struct ShotPart {
   int radial, elevation, azimuth;
   int bins;             // as PCL counts them: a cell has one bin more
-  bool colors = false;  // the signal is the colour distance; else the cosine between normal and z
+  bool colors = false;  // the signal is the color distance; else the cosine between normal and z
 };
 
 struct ShotConfig {
   std::vector<ShotPart> parts;
-  bool wrap = false;       // PCL's modulus: what lies above the centre of the last bin but one votes for bin 0
+  bool wrap = false;       // PCL's modulus: what lies above the center of the last bin but one votes for bin 0
   bool pcl_white = false;  // PCL reads white beyond the end of its table
   double log_ratio = 0.0;  // as in Config; what is closer than the innermost shell's lower end counts as lying there
 };
 
 struct ShotDescription {
-  bool exists = false;         // five neighbours, the key point and its copies among them, and one with a normal
+  bool exists = false;         // five neighbors, the key point and its copies among them, and one with a normal
   std::vector<double> values;  // L2 norm 1
-  double border = 1.0;         // smallest distance, in cells, of any neighbour from a place where its votes jump
+  double border = 1.0;         // smallest distance, in cells, of any neighbor from a place where its votes jump
 };
 
-/// How SHOT shares a point among the cells along one axis: 1 - |q| for its own, |q| for the nearer neighbouring one.
+/// How SHOT shares a point among the cells along one axis: 1 - |q| for its own, |q| for the nearer neighboring one.
 struct ShotShare {
   int cell = 0;
   int partner = -1;  // -1: none
@@ -45,7 +45,7 @@ struct ShotShare {
 
 namespace detail {
 
-/// A position in cells. Each cell ends with its upper border. One cell alone has no neighbour, around a circle either.
+/// A position in cells. Each cell ends with its upper border. One cell alone has no neighbor, around a circle either.
 inline ShotShare shot_share(double raw, int cells, bool wraps) {
   const double nearest = std::round(raw);
   if (std::abs(raw - nearest) < 1e-12) raw = nearest;  // angles in double miss exact borders by a few ulps
@@ -61,7 +61,7 @@ inline ShotShare shot_share(double raw, int cells, bool wraps) {
   return share;
 }
 
-/// A value in bins whose centres are 0, 1, ... bins. It jumps half-way between them.
+/// A value in bins whose centers are 0, 1, ... bins. It jumps half-way between them.
 inline ShotShare shot_bin(double value, int bins, bool wrap) {
   ShotShare share;
   share.cell = static_cast<int>(std::floor(value + 0.5));
@@ -84,7 +84,7 @@ inline double shot_dot(const Vec3f& a, const Vec3f& b) {
   return std::abs(dot) < 1e-30 ? 0.0 : dot;
 }
 
-/// Radius, elevation (upwards from -z) and azimuth of a neighbour in a part.
+/// Radius, elevation (upwards from -z) and azimuth of a neighbor in a part.
 struct ShotPlace {
   ShotShare axes[3];
 
@@ -99,14 +99,14 @@ struct ShotPlace {
     axes[0] = shot_share(shell, part.radial, false);
     axes[1] = shot_share(part.elevation * (pi - angle) / pi, part.elevation, false);
     axes[2] = shot_share(part.azimuth * (std::atan2(y, x) + pi) / (2.0 * pi), part.azimuth, true);
-    if (x == 0.0 && y == 0.0) {  // the first sector, and no vote for it or its neighbours
+    if (x == 0.0 && y == 0.0) {  // the first sector, and no vote for it or its neighbors
       axes[2] = {};
       axes[2].q = 1.0;
     }
   }
 };
 
-/// The additive votes of one neighbour: what is its own adds up in one bin of one cell, each partner gets |q| alone.
+/// The additive votes of one neighbor: what is its own adds up in one bin of one cell, each partner gets |q| alone.
 inline void shot_vote(const ShotPart& part, const ShotPlace& place, const ShotShare& bin, double* out) {
   const auto value = [&](int r, int e, int a, int b) -> double& {
     return out[b + (part.bins + 1) * (e + part.elevation * (r + part.radial * a))];
@@ -123,8 +123,8 @@ inline void shot_vote(const ShotPart& part, const ShotPlace& place, const ShotSh
 
 }  // namespace detail
 
-/// The descriptor of sorted neighbours. `normals` holds three floats for each point of the cloud, not finite where it
-/// has none; `rgb` may be empty if no part has colours.
+/// The descriptor of sorted neighbors. `normals` holds three floats for each point of the cloud, not finite where it
+/// has none; `rgb` may be empty if no part has colors.
 inline ShotDescription describe_shot(const std::vector<Neighbor>& sorted, const std::vector<float>& normals,
                                      const std::vector<std::uint8_t>& rgb, const Bytes3& reference,
                                      const ShotFrame& frame, double radius, const ShotConfig& config) {

@@ -1,4 +1,4 @@
-// A small depth image of a bumpy wall, as an organised cloud.
+// A small depth image of a bumpy wall, as an organized cloud.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ struct Camera {
   float focal = 60.0f;
   float center_u = 31.5f;
   float center_v = 23.5f;
-  float lateral_noise = 0.0f;  // metres
+  float lateral_noise = 0.0f;  // meters
 };
 
 inline TestCloud pinhole_image(std::uint32_t seed, const Camera& camera) {

@@ -1,4 +1,4 @@
-// The plane through a point's neighbours by principal components in double precision (Eigen), and how far float may
+// The plane through a point's neighbors by principal components in double precision (Eigen), and how far float may
 // be from it.
 #pragma once
 
@@ -32,9 +32,9 @@ inline OraclePlane oracle_plane(const TestCloud& cloud, std::size_t index, ss::R
   for (Eigen::Index k = 0; k < offsets.cols(); ++k) {
     offsets.col(k) = Eigen::Vector3f(n.dx[k], n.dy[k], n.dz[k]).cast<double>();
   }
-  const Eigen::Matrix3Xd centred = offsets.colwise() - offsets.rowwise().mean();
-  const Eigen::Matrix3d scatter = centred * centred.transpose();
-  // Only the ratios of eigenvalues matter: of 1e-38 square metres, too.
+  const Eigen::Matrix3Xd centered = offsets.colwise() - offsets.rowwise().mean();
+  const Eigen::Matrix3d scatter = centered * centered.transpose();
+  // Only the ratios of eigenvalues matter: of 1e-38 square meters, too.
   const double trace = scatter.trace();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter / trace);
   plane.normal = solver.eigenvectors().col(0);

@@ -1,4 +1,4 @@
-// For test_status.cpp: calls of matching, poses and the recogniser that end in each of their own statuses.
+// For test_status.cpp: calls of matching, poses and the recognizer that end in each of their own statuses.
 #pragma once
 
 #include <doctest/doctest.h>

@@ -70,7 +70,7 @@ struct View {
   }
 };
 
-/// Key points up to 10 cm from the object's centre, which is the origin.
+/// Key points up to 10 cm from the object's center, which is the origin.
 inline View synthetic_object(std::uint32_t seed, std::size_t keypoints) {
   Random random(seed);
   View view;

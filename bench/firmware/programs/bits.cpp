@@ -1,5 +1,5 @@
 // One hash for each configuration, over the status and the bits of every descriptor of the committed golden case (ties,
-// borders of cells, copies, degenerate neighbourhoods), in frames of their own and in given ones, and of the generated
+// borders of cells, copies, degenerate neighborhoods), in frames of their own and in given ones, and of the generated
 // patch. Every search, workspace and chunk size must give the same.
 #include "board.hpp"
 #include "patch.hpp"
@@ -137,7 +137,7 @@ bool check(const char* name) {
     const auto converted = [](const Input& input, const auto& search, const auto&... where) {
       return shortshot::describe_at<D>(input.cloud, search, where..., workspace, descriptor, input.colors);
     };
-    good = same(name, hash, "converted colours", hash_by_grid<D>(converted)) && good;
+    good = same(name, hash, "converted colors", hash_by_grid<D>(converted)) && good;
   }
   return good;
 }

@@ -1,4 +1,4 @@
-// A generated depth image of a curved, coloured surface. Every number is made of integers and powers of two, so that it
+// A generated depth image of a curved, colored surface. Every number is made of integers and powers of two, so that it
 // has the same bits on all machines, whatever their compilers do with floating point.
 #pragma once
 

@@ -12,7 +12,7 @@ Status describe(const Job& job, const Search& search, Colors... colors) {
                                                colors...);
 }
 
-/// Neighbours into the workspace, and no more.
+/// Neighbors into the workspace, and no more.
 template <class Search>
 Status gather(const Job& job, const Search& search) {
   const shortshot::Point center = shortshot::point(job.cloud, job.index);
@@ -20,7 +20,7 @@ Status gather(const Job& job, const Search& search) {
   return search.gather(center, job.radius, neighborhood);
 }
 
-/// A search that has found its neighbours before: what describe_at() does besides.
+/// A search that has found its neighbors before: what describe_at() does besides.
 struct Given {
   std::size_t points;
   std::uint32_t gathered;

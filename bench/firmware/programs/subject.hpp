@@ -32,7 +32,7 @@ struct Job {
   Grid* grid;
   shortshot::OrganizedSearch* image;
   const shortshot::Lab* colors;  ///< one per point
-  std::uint32_t gathered;        ///< neighbours that lie in the workspace, for describe_given()
+  std::uint32_t gathered;        ///< neighbors that lie in the workspace, for describe_given()
   float* out;
 };
 

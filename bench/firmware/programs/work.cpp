@@ -42,7 +42,7 @@ void count(const char* name, const Call& call) {
   expect_ok(name, status);
 }
 
-/// A radius with `wanted` neighbours, to the point.
+/// A radius with `wanted` neighbors, to the point.
 float radius_of(std::uint32_t wanted, const shortshot::CloudView& cloud, std::size_t index) {
   const shortshot::Point center = shortshot::point(cloud, index);
   float low = 0.0f;
@@ -54,7 +54,7 @@ float radius_of(std::uint32_t wanted, const shortshot::CloudView& cloud, std::si
     if (n.found == wanted) return middle;
     (n.found > wanted ? high : low) = middle;
   }
-  board::print("no radius has the wanted number of neighbours\n");
+  board::print("no radius has the wanted number of neighbors\n");
   ++failures;
   return low;
 }
@@ -62,7 +62,7 @@ float radius_of(std::uint32_t wanted, const shortshot::CloudView& cloud, std::si
 }  // namespace
 
 int main() {
-  constexpr int step = 877;  // so that any 250 of the gathered neighbours lie all around
+  constexpr int step = 877;  // so that any 250 of the gathered neighbors lie all around
   shortshot::CloudView cloud = patch::make(memory, step);
   if constexpr (Configuration::needs_normals) cloud = patch::with_normals(cloud, 0.0625f, memory, other_workspace);
   Job job{};

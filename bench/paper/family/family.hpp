@@ -16,7 +16,7 @@ struct FamilyMember {
   Configuration configuration;
 };
 
-/// All of them, by colour grid, shape grid and bins.
+/// All of them, by color grid, shape grid and bins.
 std::vector<FamilyMember> family();
 
 namespace family_detail {
@@ -39,7 +39,7 @@ void add_members(std::vector<FamilyMember>& members, std::integer_sequence<int, 
 
 using AllBins = std::integer_sequence<int, 5, 10, 15, 20, 25, 30, 35>;
 
-/// The histograms of figure 5 on one colour grid; and for the two configurations of table I the other shape grids.
+/// The histograms of figure 5 on one color grid; and for the two configurations of table I the other shape grids.
 template <class ColorGrid>
 void add_color_grid(std::vector<FamilyMember>& members) {
   using shortshot::SphericalGrid;

@@ -1,14 +1,14 @@
-// shortshot/search/brute.hpp: neighbours by looking at every point. No index, no memory: the reference, and the choice
+// shortshot/search/brute.hpp: neighbors by looking at every point. No index, no memory: the reference, and the choice
 // for a handful of key points in a small cloud.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-#include "../cloud.hpp"
+#include "../cloud/cloud.hpp"
 #include "../config.hpp"
-#include "../neighborhood.hpp"
 #include "../status.hpp"
+#include "neighborhood.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {

@@ -1,4 +1,4 @@
-// shortshot/search/nanoflann.hpp: neighbours from nanoflann's k-d tree. Hosted only: building it allocates, and may
+// shortshot/search/nanoflann.hpp: neighbors from nanoflann's k-d tree. Hosted only: building it allocates, and may
 // throw std::bad_alloc. A leaf: nothing else in the library includes it. Works with nanoflann 1.4 to 1.12.
 #pragma once
 
@@ -7,10 +7,10 @@
 #include <nanoflann.hpp>
 #include <vector>
 
-#include "../cloud.hpp"
+#include "../cloud/cloud.hpp"
 #include "../config.hpp"
-#include "../neighborhood.hpp"
 #include "../status.hpp"
+#include "neighborhood.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -31,8 +31,8 @@ struct NanoflannCloud {
   }
 };
 
-/// A nanoflann result set that passes candidates straight on to a neighbourhood: queries allocate nothing, and whether
-/// a candidate is a neighbour is decided by the same rule, in the same arithmetic, as in every other search.
+/// A nanoflann result set that passes candidates straight on to a neighborhood: queries allocate nothing, and whether
+/// a candidate is a neighbor is decided by the same rule, in the same arithmetic, as in every other search.
 template <class Neighbors>
 class NanoflannSink {
  public:

@@ -1,13 +1,13 @@
-// shortshot/search/offer_run.hpp: a run of points offered to a neighbourhood, a register of them at a time.
+// shortshot/search/offer_run.hpp: a run of points offered to a neighborhood, a register of them at a time.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-#include "../cloud.hpp"
+#include "../base/simd.hpp"
+#include "../cloud/cloud.hpp"
 #include "../config.hpp"
-#include "../neighborhood.hpp"
-#include "../simd.hpp"
+#include "neighborhood.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {

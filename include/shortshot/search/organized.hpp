@@ -1,16 +1,16 @@
-// shortshot/search/organized.hpp: neighbours in a window of the depth image. No index at all: for organised clouds on
+// shortshot/search/organized.hpp: neighbors in a window of the depth image. No index at all: for organized clouds on
 // targets that cannot spare one.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 
-#include "../cloud.hpp"
+#include "../base/math.hpp"
+#include "../base/unfused.hpp"
+#include "../cloud/cloud.hpp"
 #include "../config.hpp"
-#include "../math.hpp"
-#include "../neighborhood.hpp"
-#include "../rounded.hpp"
 #include "../status.hpp"
+#include "neighborhood.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -31,9 +31,9 @@ struct PixelRange {
 
 }  // namespace detail
 
-/// Search of an organised cloud by projecting the support sphere into the image; a search (see brute.hpp). The camera
+/// Search of an organized cloud by projecting the support sphere into the image; a search (see brute.hpp). The camera
 /// need not be known: build() fits a pinhole to the cloud and keeps the largest deviation as the window's margin, so
-/// that the neighbours are exactly those of every other search. Trivial type; the cloud must outlive it.
+/// that the neighbors are exactly those of every other search. Trivial type; the cloud must outlive it.
 class OrganizedSearch {
  public:
   /// Statuses: empty_cloud, bad_view, not_organized (height 1, width * height != size, points in front of and behind

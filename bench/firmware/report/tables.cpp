@@ -1,0 +1,135 @@
+#include "firmware/report/tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace shortshot_bench::firmware {
+namespace {
+
+struct Column {
+  const char* header;
+  const char* figure;
+  const char* otherwise;  // a figure in its place, or null
+};
+
+constexpr Column columns[] = {{"brute", "flash_brute", "object_brute"},
+                              {"grid", "flash_grid", "object_grid"},
+                              {"image", "flash_organized", nullptr},
+                              {"further", "flash_further", nullptr},
+                              {"static", "static_bytes", nullptr},
+                              {"painted", "stack_painted", nullptr},
+                              {"graph", "stack_graph", nullptr},
+                              {"chunk", "chunk_bytes", nullptr},
+                              {"B/nb", "workspace_bytes_per_neighbor", nullptr},
+                              {"B/pt", "index_bytes_per_point", nullptr},
+                              {"250", "work_given_250", nullptr},
+                              {"500", "work_given_500", nullptr},
+                              {"each", "work_per_neighbor", nullptr},
+                              {"fixed", "work_fixed", nullptr},
+                              {"each Lab", "work_lab_per_neighbor", nullptr},
+                              {"build", "work_build_grid", nullptr},
+                              {"gather", "work_gather_grid", nullptr}};
+
+using Lines = std::vector<std::vector<std::string>>;
+
+std::string cell(const Row& row, const Column& column) {
+  auto found = row.figures.find(column.figure);
+  if (found == row.figures.end() && column.otherwise != nullptr) found = row.figures.find(column.otherwise);
+  return found == row.figures.end() ? "" : std::to_string(std::lround(found->second));
+}
+
+/// The hash of a row's build; empty if there is none.
+std::string hash_of(const Measured& measured, const Row& row) {
+  for (const Hash& hash : measured.hashes) {
+    if (hash.target == row.target && hash.level == row.level && hash.configuration == row.configuration)
+      return hash.value;
+  }
+  return "";
+}
+
+std::string aligned(const Lines& lines) {
+  std::vector<std::size_t> widths(lines.front().size());
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  std::string text;
+  for (const auto& line : lines) {
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      const std::string fill(widths[i] - line[i].size(), ' ');
+      text += (i == 0 ? "" : "  ") + (i < 3 ? line[i] + fill : fill + line[i]);
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += "\n";
+  }
+  return text;
+}
+
+std::vector<std::string> configurations(const Measured& measured) {
+  std::vector<std::string> names;
+  for (const Row& row : measured.rows) {
+    if (std::find(names.begin(), names.end(), row.configuration) == names.end()) names.push_back(row.configuration);
+  }
+  return names;
+}
+
+const char* const legend =
+    "flash in bytes: brute, grid, image: an image with that search and start-up (hosts: code and constants of the "
+    "object);\n"
+    "further: as second configuration after SCSH-336. static: .data + .bss of the library. stack in bytes: painted and "
+    "by\n"
+    "the call graph, both with the chunk. B/nb: workspace per neighbor; B/pt: index per point, and as much per cell.\n"
+    "instructions: 250, 500: of a descriptor with so many gathered neighbors; each: per neighbor, and with a Lab "
+    "color\n"
+    "per point; fixed: besides; build, gather: grid over 2000 points, 500 found.\n";
+
+}  // namespace
+
+std::string tables(const Measured& measured) {
+  std::string text;
+  for (const std::string& configuration : configurations(measured)) {
+    Lines lines{{"target", "", "workspace"}};
+    for (const Column& column : columns) lines[0].push_back(column.header);
+    lines[0].push_back("hash");
+    for (const Row& row : measured.rows) {
+      if (row.configuration != configuration) continue;
+      lines.push_back({row.target, "-" + row.level, row.workspace});
+      for (const Column& column : columns) lines.back().push_back(cell(row, column));
+      lines.back().push_back(hash_of(measured, row));
+    }
+    text += configuration + "\n" + aligned(lines) + "\n";
+  }
+  return text + legend;
+}
+
+std::string to_json(const Measured& measured, const std::vector<Budget>& budgets,
+                    const std::vector<std::string>& broken) {
+  nlohmann::ordered_json json = {{"compilers", measured.compilers}};
+  for (const Row& row : measured.rows) {
+    nlohmann::ordered_json entry = {{"target", row.target},
+                                    {"level", row.level},
+                                    {"configuration", row.configuration},
+                                    {"workspace", row.workspace}};
+    for (const auto& [name, value] : row.figures) entry[name] = std::round(100.0 * value) / 100.0;
+    json["figures"].push_back(entry);
+  }
+  for (const Hash& hash : measured.hashes) {
+    json["hashes"].push_back(
+        {{"target", hash.target}, {"level", hash.level}, {"configuration", hash.configuration}, {"hash", hash.value}});
+  }
+  for (const Budget& budget : budgets) {
+    const Row* const worst = worst_row(budget, measured.rows);
+    if (worst == nullptr) continue;
+    json["budgets"].push_back({{"promise", budget.promise},
+                               {"goal", budget.goal},
+                               {"at_most", budget.at_most},
+                               {"measured", std::round(100.0 * worst->figures.at(budget.figure)) / 100.0},
+                               {"where", worst->configuration + " on " + worst->target + " -" + worst->level + ", " +
+                                             worst->workspace + " workspace"}});
+  }
+  json["broken"] = broken;
+  return json.dump(2) + "\n";
+}
+
+}  // namespace shortshot_bench::firmware

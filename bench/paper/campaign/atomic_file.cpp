@@ -1,0 +1,27 @@
+#include "paper/campaign/atomic_file.hpp"
+
+#include <filesystem>
+#include <system_error>
+
+#include "tools/io/binary_file.hpp"
+#include "tools/io/input_error.hpp"
+
+namespace shortshot_bench::campaign {
+
+void make_directory(const std::string& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) throw InputError::at_byte(directory, 0, "cannot make the folder: " + error.message());
+}
+
+void write_atomically(const std::string& path, std::string_view bytes) {
+  const std::string unfinished = path + ".tmp";
+  BinaryFile file(unfinished);
+  file.write(bytes);
+  file.close();
+  std::error_code error;
+  std::filesystem::rename(unfinished, path, error);
+  if (error) throw InputError::at_byte(path, 0, "cannot write the file: " + error.message());
+}
+
+}  // namespace shortshot_bench::campaign

@@ -1,0 +1,46 @@
+#include "paper/datasets/dataset_files.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+
+#include "tools/io/read_cloud.hpp"
+
+namespace shortshot_bench::datasets {
+
+bool is_file(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::is_regular_file(path, ignored);
+}
+
+bool is_folder(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::is_directory(path, ignored);
+}
+
+void require_file(const std::string& path, const std::string& what) {
+  if (!is_file(path)) throw InputError::at_byte(path, 0, "expected " + what + ", found no file of this name");
+}
+
+RgbdCloud read_colored_cloud(const std::string& path) {
+  RgbdCloud cloud = read_cloud(path);
+  if (!cloud.has_colors()) throw InputError::at_byte(path, 0, "expected a cloud with colors, found none");
+  return cloud;
+}
+
+std::vector<std::string> folders_in(const std::string& directory) {
+  std::vector<std::string> folders;
+  std::error_code is_none;
+  for (const auto& entry : std::filesystem::directory_iterator(directory, is_none)) {
+    if (is_folder(entry.path().string())) folders.push_back(entry.path().string());
+  }
+  std::sort(folders.begin(), folders.end());
+  return folders;
+}
+
+InputError not_recognized(const std::string& directory, const std::string& looked_for) {
+  const std::string found = is_folder(directory) ? "none of them" : "no folder of this name";
+  return InputError::at_byte(directory, 0, "expected a folder with " + looked_for + ", found " + found);
+}
+
+}  // namespace shortshot_bench::datasets

@@ -1,0 +1,92 @@
+#include "paper/datasets/pair_sets.hpp"
+
+#include <filesystem>
+#include <utility>
+
+#include "paper/datasets/csv_table.hpp"
+#include "paper/datasets/dataset_files.hpp"
+#include "paper/datasets/rgbd_frame.hpp"
+#include "tools/io/read_cloud.hpp"
+
+namespace shortshot_bench::datasets {
+namespace {
+
+using ReadView = std::function<RgbdCloud(const std::string&)>;
+
+// A pair before it is loaded; source and target are what ReadView wants.
+struct PairEntry {
+  std::string name;
+  std::string group;
+  std::string source;
+  std::string target;
+  RigidMotion truth;
+};
+
+std::string stem(const std::string& file) { return std::filesystem::path(file).stem().string(); }
+
+PairSet make_pair_set(const std::string& name, bool has_color, std::vector<PairEntry> pairs, ReadView read) {
+  PairSet set;
+  set.name = name;
+  set.has_color = has_color;
+  for (const PairEntry& pair : pairs) {
+    set.pair_names.push_back(pair.name);
+    set.groups.push_back(pair.group);
+    set.rotation_deg.push_back(rotation_degrees(pair.truth));
+  }
+  set.load = [pairs = std::move(pairs), read = std::move(read)](std::size_t i) {
+    const PairEntry& pair = pairs.at(i);
+    return ViewPair{pair.name, read(pair.source), read(pair.target), pair.truth, rotation_degrees(pair.truth)};
+  };
+  return set;
+}
+
+PairSet object_scene_pairs(const std::string& directory, const std::string& table) {
+  std::vector<PairEntry> pairs;
+  for (const auto& row : read_csv<4>(table, {"scene", "object", "model", "gt"})) {
+    const auto& [scene, object, model, truth] = row.cells;
+    pairs.push_back({scene + " " + object, scene, directory + "/models_color/" + model,
+                     directory + "/scenes_xyz/" + scene + ".pcd",
+                     read_rigid_motion(directory + "/groundtruth/" + truth)});
+  }
+  return make_pair_set("object-scene", false, std::move(pairs), read_cloud);
+}
+
+PairSet view_pairs(const std::string& directory, const std::string& table) {
+  std::vector<PairEntry> pairs;
+  for (const auto& row : read_csv<3>(table, {"source", "target", "gt"})) {
+    const auto& [source, target, truth] = row.cells;
+    const std::string views = directory + "/views_color/";
+    pairs.push_back({stem(source) + " " + stem(target), stem(source), views + source, views + target,
+                     read_rigid_motion(directory + "/view_pairs_gt/" + truth)});
+  }
+  return make_pair_set("views", true, std::move(pairs), read_colored_cloud);
+}
+
+PairSet frame_pairs(const std::string& directory, const std::string& table, double max_depth) {
+  const Intrinsics camera = read_intrinsics(directory + "/camera-intrinsics.txt");
+  const auto pose = [&](const std::string& frame) { return read_rigid_motion(directory + "/" + frame + ".pose.txt"); };
+  std::vector<PairEntry> pairs;
+  for (const auto& row : read_csv<2>(table, {"frame_a", "frame_b"})) {
+    const auto& [a, b] = row.cells;
+    pairs.push_back({a + " " + b, a, directory + "/" + a, directory + "/" + b, motion_between(pose(a), pose(b))});
+  }
+  return make_pair_set("frames", true, std::move(pairs),
+                       [=](const std::string& frame) { return read_frame(frame, camera, max_depth); });
+}
+
+}  // namespace
+
+std::vector<PairSet> open_pair_sets(const std::string& directory, double max_depth) {
+  std::vector<PairSet> sets;
+  const auto open_if_there = [&](const char* file, const auto& open) {
+    const std::string table = directory + "/" + file;
+    if (is_file(table)) sets.push_back(open(table));
+  };
+  open_if_there("object_scene_pairs.csv",
+                [&](const std::string& table) { return object_scene_pairs(directory, table); });
+  open_if_there("view_pairs.csv", [&](const std::string& table) { return view_pairs(directory, table); });
+  open_if_there("frame_pairs.csv", [&](const std::string& table) { return frame_pairs(directory, table, max_depth); });
+  return sets;
+}
+
+}  // namespace shortshot_bench::datasets

@@ -1,0 +1,54 @@
+// Pairs of real views with the true motion between them, for key-point matching.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "paper/datasets/rigid_motion.hpp"
+#include "tools/io/rgbd_cloud.hpp"
+
+namespace shortshot_bench::datasets {
+
+/// Two clouds in meters, each as its camera sees it: target = truth * source.
+struct ViewPair {
+  std::string name;
+  RgbdCloud source;
+  RgbdCloud target;
+  RigidMotion truth{};
+  double rotation_deg = 0.0;  // of truth
+};
+
+struct PairSet {
+  std::string name;                     // "object-scene", "views" or "frames"
+  bool has_color = false;               // both clouds of each pair have colors
+  std::vector<std::string> pair_names;  // one for each pair, as the next two
+  std::vector<std::string> groups;      // pairs of one group share a cloud: no independent samples for a bootstrap
+  std::vector<double> rotation_deg;     // by the true motion
+
+  /// Reads pair i from its files, each time anew; may be called from many threads at once. Throws InputError for files
+  /// that are missing or broken, std::out_of_range for i >= size().
+  std::function<ViewPair(std::size_t)> load;
+
+  std::size_t size() const { return pair_names.size(); }
+};
+
+/// For messages.
+inline constexpr const char* looked_for_pairs = "object_scene_pairs.csv, view_pairs.csv or frame_pairs.csv";
+
+/// The sets that the folder holds; none if it holds none of `looked_for_pairs`. All motions are read at once, clouds by
+/// load().
+///
+/// * object_scene_pairs.csv (scene, object, model, gt): "object-scene", scenes of a Kinect without colors.
+///   models_color/MODEL, scenes_xyz/SCENE.pcd, groundtruth/GT with scene = T * model. A group is a scene.
+/// * view_pairs.csv (source, target, gt): "views", colored views of single objects. views_color/SOURCE and TARGET,
+///   view_pairs_gt/GT with target = T * source. A group is a source view.
+/// * frame_pairs.csv (frame_a, frame_b): "frames" of a room, from a to b. FRAME.color.jpg or .png, FRAME.depth.png,
+///   FRAME.pose.txt (camera to world), camera-intrinsics.txt; see read_frame(). A group is a first frame. Depth beyond
+///   `max_depth` meters is dropped: the protocol's 3 m, a Kinect's error grows with the square.
+///
+/// Throws InputError for a table or motion that is missing or broken.
+std::vector<PairSet> open_pair_sets(const std::string& directory, double max_depth = 3.0);
+
+}  // namespace shortshot_bench::datasets

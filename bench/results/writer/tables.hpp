@@ -1,0 +1,37 @@
+// What the documents show of the measurements. Each function takes what the measuring programs wrote and gives
+// Markdown; all throw std::runtime_error, which names the file, for what is missing or malformed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "results/writer/machine.hpp"
+#include "speed/scaling/curve_point.hpp"
+#include "speed/scaling/json_rows.hpp"
+
+namespace shortshot_bench::results {
+
+using scaling::CurvePoint;
+using scaling::JsonRow;
+
+/// The README's few rows: one cloud, plain -O2 and -mavx2 next to each other, against the peers that matter most.
+std::string headline(const std::string& peers_path, const std::vector<JsonRow>& peers, const Machine& machine);
+
+std::string machine_lines(const Machine& machine);
+std::string goals_table(const std::vector<JsonRow>& goals);
+std::string peers_table(const std::vector<JsonRow>& peers);
+
+/// `json` is Google Benchmark's: medians where there are any, else every run; user counters become columns.
+std::string micro_table(const std::string& path, const nlohmann::ordered_json& json);
+
+/// `json` is the instruction gate's record: compiler, flags, workload, instructions_per_neighbor.
+std::string instructions_table(const std::string& path, const nlohmann::ordered_json& json);
+
+/// `json` is what ./run firmware --record wrote: the README's rows, and the firmware page's tables.
+std::string firmware_headline(const std::string& path, const nlohmann::ordered_json& json);
+std::string firmware_tables(const nlohmann::ordered_json& json);
+
+/// For each curve a table and its plot, which lies in the folder `plots`.
+std::string scaling_tables(const std::vector<CurvePoint>& points, const std::string& plots);
+
+}  // namespace shortshot_bench::results

@@ -1,0 +1,95 @@
+// Figures of the firmware targets.
+#include <stdexcept>
+
+#include "results/writer/markdown.hpp"
+#include "results/writer/tables.hpp"
+
+namespace shortshot_bench::results {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// A figure as a whole number, or nothing if it was not measured.
+std::string figure(const Json& row, const char* name) {
+  const auto found = row.find(name);
+  return found == row.end() ? "" : whole(found->get<double>());
+}
+
+/// The difference of two figures.
+std::string difference(const Json& row, const char* more, const char* less) {
+  if (row.count(more) == 0 || row.count(less) == 0) return "";
+  return whole(row[more].get<double>() - row[less].get<double>());
+}
+
+const Json& row_of(const Json& json, const std::string& path, const char* level, const char* configuration,
+                   const char* workspace) {
+  for (const Json& row : json.at("figures")) {
+    if (row.at("target") == "m7" && row.at("level") == level && row.at("configuration") == configuration &&
+        row.at("workspace") == workspace) {
+      return row;
+    }
+  }
+  throw std::runtime_error(path + ": no figures of " + configuration + " on m7 -" + level);
+}
+
+std::string hash_of(const Json& json, const std::string& configuration) {
+  for (const Json& hash : json.at("hashes")) {
+    if (hash.at("configuration") == configuration) return hash.at("hash");
+  }
+  return "";
+}
+
+std::string table_of(const Json& json, const std::string& configuration) {
+  Table table({configuration, "flash", "grid", "image", "further", "stack", "chunk", "each", "each, Lab", "fixed",
+               "at 250", "at 500"});
+  for (const Json& row : json.at("figures")) {
+    if (row.at("configuration") != configuration) continue;
+    const std::string name = row.at("target").get<std::string>() + " -" + row.at("level").get<std::string>();
+    table.add({name + (row.at("workspace") == "compact" ? ", compact" : ""), figure(row, "flash_brute"),
+               difference(row, "flash_grid", "flash_brute"), difference(row, "flash_organized", "flash_brute"),
+               figure(row, "flash_further"), figure(row, "stack_outside_chunk"), figure(row, "chunk_bytes"),
+               figure(row, "work_per_neighbor"), figure(row, "work_lab_per_neighbor"), figure(row, "work_fixed"),
+               figure(row, "work_given_250"), figure(row, "work_given_500")});
+  }
+  return table.markdown();
+}
+
+}  // namespace
+
+std::string firmware_headline(const std::string& path, const Json& json) {
+  Table table({"Cortex-M7, GCC", "flash, -Os", "library's .data + .bss", "workspace, a neighbor",
+               "stack and chunk, -O2", "instructions, -O2"});
+  for (const char* configuration : {"Ssh96", "Scsh336"}) {
+    const Json& small = row_of(json, path, "Os", configuration, "full");
+    const Json& fast = row_of(json, path, "O2", configuration, "full");
+    const Json& compact = row_of(json, path, "O2", configuration, "compact");
+    table.add({configuration, figure(small, "flash_brute") + " B", figure(fast, "static_bytes"),
+               figure(fast, "workspace_bytes_per_neighbor") + " B, compact " +
+                   figure(compact, "workspace_bytes_per_neighbor") + " B",
+               figure(fast, "stack_outside_chunk") + " B + " + figure(fast, "chunk_bytes") + " B",
+               figure(fast, "work_per_neighbor") + " a neighbor + " + figure(fast, "work_fixed")});
+  }
+  return table.markdown();
+}
+
+std::string firmware_tables(const Json& json) {
+  Table budgets({"promise", "goal", "limit in force", "largest figure", "of"});
+  for (const Json& budget : json.at("budgets")) {
+    const bool missed = budget.at("measured").get<double>() > budget.at("goal").get<double>();
+    budgets.add({budget.at("promise").get<std::string>() + (missed ? " (goal missed)" : ""), figure(budget, "goal"),
+                 figure(budget, "at_most"), figure(budget, "measured"), budget.at("where")});
+  }
+  std::string text = budgets.markdown();
+  std::string last;
+  for (const Json& row : json.at("figures")) {
+    const std::string configuration = row.at("configuration");
+    if (configuration == last) continue;
+    last = configuration;
+    if (text.find("| " + configuration + " |") != std::string::npos) continue;
+    text += "\n" + table_of(json, configuration) + "\nHash of the bits: " + hash_of(json, configuration) +
+            ", the same in every build.\n";
+  }
+  return text;
+}
+
+}  // namespace shortshot_bench::results

@@ -1,0 +1,176 @@
+// shortshot as contenders. Compiled once per instruction set: PEERS_SUITE is the function's name and PEERS_BUILD the
+// build's, which say with what flags. No type of an instruction set's own crosses the function's border.
+
+#include <memory>
+#include <nanoflann.hpp>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "shortshot/search/nanoflann.hpp"
+#include "shortshot/shortshot.hpp"
+#include "speed/peers/suite.hpp"
+#include "speed/peers/task.hpp"
+#include "tools/golden/neighbors.hpp"
+#include "tools/io/view_of_cloud.hpp"
+
+namespace shortshot_bench::peers {
+
+Suite PEERS_SUITE(const Task& task);
+
+namespace {
+
+namespace ss = shortshot;
+
+void require(ss::Status status) {
+  if (status != ss::Status::ok) throw std::runtime_error(ss::message(status));
+}
+
+/// One search; built anew for every frame, as one does.
+struct Grid {
+  static constexpr const char* name = "grid";
+  ss::GridSearch search;
+  void build(const ss::CloudView& view, float radius) { require(search.build(view, radius)); }
+  void release() { search = {}; }
+  const ss::GridSearch& operator*() const { return search; }
+};
+
+struct Tree {
+  static constexpr const char* name = "nanoflann";
+  std::unique_ptr<ss::NanoflannSearch> search;
+  void build(const ss::CloudView& view, float) {
+    search.reset();
+    search = std::make_unique<ss::NanoflannSearch>(view);
+  }
+  void release() { search.reset(); }
+  const ss::NanoflannSearch& operator*() const { return *search; }
+};
+
+struct State {
+  explicit State(const Task& t) : task(t), view(view_of_cloud(t.points)) {}
+
+  const Task& task;
+  ss::CloudView view;  // with normals once they are there
+  Grid grid, normal_grid;
+  Tree tree;
+  std::vector<ss::Normal> normals;
+  std::vector<ss::Lab> lab;
+  golden::Neighbors neighbors;
+};
+
+/// By the grid that serves their radius best.
+void estimate_normals(State& state, const ss::CloudView& view) {
+  state.normal_grid.build(view, normal_radius);
+  require(ss::estimate_normals(view, *state.normal_grid, normal_radius, state.normals));
+}
+
+template <class LabRule>
+void convert_colors(State& state) {
+  state.lab.resize(state.view.size);
+  require(ss::convert_colors<LabRule>(state.view, state.lab.data()));
+}
+
+template <class Search>
+void find_all(State& state, const Search& search) {
+  for (const std::uint32_t key : state.task.keypoints) {
+    state.neighbors.gather(search, ss::point(state.view, key), state.task.radius);
+  }
+}
+
+template <class D>
+auto colors_for(const State& state, std::uint32_t key) {
+  if constexpr (D::needs_colors) {
+    return ss::LabColors{state.lab.data(), state.lab[key]};
+  } else {
+    return ss::NoColors{};
+  }
+}
+
+/// Search, frame and kernel of each key point; normals and the cloud's colors, by D's rule, are there already.
+template <class D, class Search>
+void describe_all(State& state, const Search& search, ss::Features<D>& features) {
+  const ss::CloudNormals normals{state.view};  // looked at only if D needs them
+  float* row = features.values.data();
+  for (const std::uint32_t key : state.task.keypoints) {
+    const ss::Neighborhood& n = state.neighbors.gather(search, ss::point(state.view, key), state.task.radius);
+    ss::Frame frame;
+    if (ss::estimate_frame(n, state.task.radius, frame) == ss::Status::ok) {
+      static_cast<void>(ss::describe<D>(n, colors_for<D>(state, key), normals, frame, state.task.radius, row));
+    }
+    row += D::size;
+  }
+}
+
+/// Adds D with one search, given by the state's member and the steps before it, which build it.
+template <class D, class Index>
+void add_contender(Suite& suite, const std::shared_ptr<State>& state, Index State::*index,
+                   const std::vector<std::size_t>& before, const char* descriptor) {
+  const auto features = std::make_shared<ss::Features<D>>();
+  const auto extract = [=](unsigned threads) {
+    const State& s = *state;
+    require(ss::extract(s.view, *((*state).*index), s.task.keypoints, s.task.radius, *features, threads));
+  };
+  const std::string name = std::string(descriptor) + ", " + Index::name;
+  Contender contender{"shortshot", descriptor, suite.name, Index::name};
+  contender.frame = before;
+  contender.frame.push_back(suite.add(name + ": extract", [=] { extract(1); }));
+  contender.describe = suite.add(name + ": describe", [=] { describe_all<D>(*state, *((*state).*index), *features); });
+  contender.output_bytes = state->task.keypoints.size() * (D::size_bytes + sizeof features->status[0] +
+                                                           sizeof features->frames[0] + sizeof features->neighbors[0]);
+  contender.rows = [=] { return static_cast<const float*>(features->values.data()); };
+  suite.contenders.push_back(contender);
+  if constexpr (std::is_same<Index, Grid>::value && std::is_same<D, ss::Scsh336>::value) {
+    suite.add(
+        "1 thread", [=] { extract(1); }, Clock::wall);
+    suite.add(
+        "2 threads", [=] { extract(2); }, Clock::wall);
+  }
+  suite.release = [release_others = suite.release, features] {
+    release_others();
+    *features = {};
+  };
+}
+
+template <class D>
+void add_descriptor(Suite& suite, const std::shared_ptr<State>& state, std::size_t grid, std::size_t tree,
+                    const char* descriptor) {
+  add_contender<D>(suite, state, &State::grid, {grid}, descriptor);
+  add_contender<D>(suite, state, &State::tree, {tree}, descriptor);
+}
+
+}  // namespace
+
+Suite PEERS_SUITE(const Task& task) {
+  const auto state = std::make_shared<State>(task);
+  Suite suite{PEERS_BUILD};
+  suite.release = [state] {
+    state->grid.release();
+    state->normal_grid.release();
+    state->tree.release();
+    state->view.normals = {};
+    state->normals = std::vector<ss::Normal>();  // {} would keep its memory
+    state->lab = std::vector<ss::Lab>();
+    state->neighbors = {};
+  };
+  const std::size_t grid = suite.add("grid", [=] { state->grid.build(state->view, state->task.radius); });
+  const std::size_t tree = suite.add("tree", [=] { state->tree.build(state->view, state->task.radius); });
+  suite.add("search, grid", [=] { find_all(*state, *state->grid); });
+  suite.add("search, nanoflann", [=] { find_all(*state, *state->tree); });
+  suite.add("Lab", [=] { convert_colors<ss::PublishedLab>(*state); });
+  add_descriptor<ss::Ssh32>(suite, state, grid, tree, "SSH-32");
+  add_descriptor<ss::Scsh336>(suite, state, grid, tree, "SCSH-336");
+  add_descriptor<ss::Scsh696>(suite, state, grid, tree, "SCSH-696");
+  // PCL's own descriptors, defects included, so that both sides compute the same.
+  suite.add("normals of the image", [=] { estimate_normals(*state, view_of_cloud(state->task.image)); });
+  const std::size_t normals = suite.add("normals", [=] {
+    estimate_normals(*state, state->view);
+    state->view = ss::with_normals(state->view, state->normals.data());
+  });
+  suite.add("Lab, PCL's rule", [=] { convert_colors<ss::PclCshot1344::LabRule>(*state); });
+  add_contender<ss::PclShot352>(suite, state, &State::grid, {grid, normals}, "SHOT-352");
+  add_contender<ss::PclCshot1344>(suite, state, &State::grid, {grid, normals}, "CSHOT-1344");
+  return suite;
+}
+
+}  // namespace shortshot_bench::peers

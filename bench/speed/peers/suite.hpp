@@ -1,0 +1,47 @@
+// What is measured: steps of work, and which of them make up a contender.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "speed/timing/clock.hpp"
+
+namespace shortshot_bench::peers {
+
+/// Work of a suite that is timed by itself, such as building a tree. Steps run in their order; one may use what those
+/// before it have made.
+struct Step {
+  std::string name;
+  std::function<void()> run;
+  Clock clock = Clock::thread_cpu;
+};
+
+/// One way to describe all key points.
+struct Contender {
+  std::string implementation;  // "shortshot", "naive double", "PCL ..."
+  std::string descriptor;
+  std::string build;                     // of ours: "O2" or "avx2"
+  std::string search;                    // "grid", "nanoflann", "FLANN"
+  std::size_t describe = 0;              // the step that describes all key points, indices and one-off work left out
+  std::vector<std::size_t> frame{};      // the steps from a new cloud to its descriptors
+  std::size_t output_bytes = 0;          // of all descriptors; not counted as memory that a contender needs
+  std::vector<std::string> against{};    // of a peer: our descriptors that it is compared with
+  std::function<const float*()> rows{};  // of ours: the descriptors that the last frame gave
+};
+
+/// Contenders that share steps.
+struct Suite {
+  std::string name;
+  std::vector<Step> steps{};
+  std::vector<Contender> contenders{};
+  std::function<void()> release{};  // gives all memory back, as before the first step
+
+  std::size_t add(std::string step, std::function<void()> run, Clock clock = Clock::thread_cpu) {
+    steps.push_back({std::move(step), std::move(run), clock});
+    return steps.size() - 1;
+  }
+};
+
+}  // namespace shortshot_bench::peers

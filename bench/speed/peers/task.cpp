@@ -1,0 +1,63 @@
+#include "speed/peers/task.hpp"
+
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+#include "shortshot/shortshot.hpp"
+#include "tools/io/view_of_cloud.hpp"
+
+namespace shortshot_bench::peers {
+namespace {
+
+void require(shortshot::Status status) {
+  if (status != shortshot::Status::ok) throw std::runtime_error(shortshot::message(status));
+}
+
+/// The points that were measured, as one row.
+RgbdCloud valid_points(const RgbdCloud& cloud) {
+  RgbdCloud valid;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const float* p = cloud.xyz.data() + 3 * i;
+    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) continue;
+    valid.xyz.insert(valid.xyz.end(), p, p + 3);
+    valid.rgb.insert(valid.rgb.end(), cloud.rgb.data() + 3 * i, cloud.rgb.data() + 3 * (i + 1));
+  }
+  valid.width = valid.size();
+  valid.height = 1;
+  return valid;
+}
+
+/// The same choice on every machine: the engine's output is specified by the standard.
+void draw(std::vector<std::uint32_t>& from, std::size_t count) {
+  std::mt19937 random(1);
+  for (std::size_t i = 0; i < count && i < from.size(); ++i) {
+    std::swap(from[i], from[i + random() % (from.size() - i)]);
+  }
+  if (from.size() > count) from.resize(count);
+}
+
+}  // namespace
+
+Task make_task(const std::string& name, const RgbdCloud& cloud, float radius, float leaf) {
+  if (!cloud.has_colors()) throw std::runtime_error("no colors, which half of the descriptors need");
+  Task task;
+  task.cloud = name;
+  task.points = valid_points(cloud);
+  task.image = cloud;
+  task.radius = radius;
+  const shortshot::CloudView view = view_of_cloud(task.points);
+  require(shortshot::sample_uniform(view, leaf, task.keypoints));
+  draw(task.keypoints, max_keypoints);
+
+  const shortshot::GridSearch search(view, radius);
+  shortshot::Features<shortshot::Ssh32> features;
+  require(shortshot::extract(view, search, task.keypoints, radius, features));
+  const double neighbors = std::accumulate(features.neighbors.begin(), features.neighbors.end(), 0.0);
+  task.mean_neighbors = neighbors / static_cast<double>(task.keypoints.size());
+  return task;
+}
+
+}  // namespace shortshot_bench::peers

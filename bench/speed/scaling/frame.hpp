@@ -1,0 +1,60 @@
+// A generated cloud, and what is done with it per camera frame, in memory that is kept from frame to frame.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "shortshot/shortshot.hpp"
+#include "speed/scaling/measure.hpp"
+#include "tools/io/rgbd_cloud.hpp"
+
+namespace shortshot_bench::scaling {
+
+/// What is measured, and the radius where the curve does not vary it.
+using Measured = shortshot::Scsh336;
+inline constexpr float scaling_radius = 0.04f;
+
+/// The tabletop scene in a resolution that gives about that many valid points.
+struct ScalingCloud {
+  explicit ScalingCloud(std::size_t about_points);
+
+  RgbdCloud cloud;
+  shortshot::CloudView view;
+  std::vector<std::uint32_t> valid;  // indices of the points with a measurement
+};
+
+/// `count` of the cloud's valid points, evenly spaced in the image's order.
+std::vector<std::uint32_t> spread_keypoints(const ScalingCloud& cloud, std::size_t count);
+
+/// Index and descriptors of a cloud's key points. Memory for the rows that come out is there before anything is
+/// measured: it is the caller's, and not counted.
+class FrameWork {
+ public:
+  FrameWork(const ScalingCloud& cloud, std::size_t keypoints, float radius, unsigned threads = 1);
+
+  /// Costs of index build, extract (Lab of the whole cloud included), and both together. Throws std::runtime_error if
+  /// the library refuses.
+  std::vector<Cost> run(Clock clock);
+  static std::vector<std::string> series() { return {"index build", "extract", "whole frame"}; }
+
+  /// Of the last run: the key points that have a descriptor (a few lone points have no frame), their mean number of
+  /// neighbors, and the most neighbors of any key point.
+  std::vector<std::uint32_t> described() const;
+  double mean_neighbors() const;
+  std::uint32_t most_neighbors() const;
+  const shortshot::GridSearch& index() const { return index_; }
+
+ private:
+  const ScalingCloud& cloud_;
+  std::vector<std::uint32_t> keypoints_;
+  float radius_;
+  unsigned threads_;
+  shortshot::GridSearch index_;
+  shortshot::Features<Measured> features_;
+};
+
+/// Throws std::runtime_error with the library's own words unless `status` is ok.
+void require(shortshot::Status status);
+
+}  // namespace shortshot_bench::scaling

@@ -1,0 +1,287 @@
+// Compiled once for each instruction set; STAGES is the function's name. All else has internal linkage, and the library
+// an inline namespace of its own, so that one program can hold several.
+#include "speed/stages/stages_of_isa.hpp"
+
+#include <malloc.h>
+
+#include <memory>
+#include <nanoflann.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "shortshot/search/nanoflann.hpp"
+#include "shortshot/shortshot.hpp"
+#include "tools/io/view_of_cloud.hpp"
+
+#ifndef STAGES
+#define STAGES stages_plain
+#endif
+#define TEXT_OF(name) #name
+#define TEXT(name) TEXT_OF(name)
+
+namespace shortshot_bench {
+namespace {
+
+using shortshot::Status;
+
+// The calls under test are functions of their own, so that a profile shows them and a compiler cannot merge them with
+// the loops of the benchmark.
+
+template <class Search>
+[[gnu::noinline]] Status search_around(const Search& search, const shortshot::Point& center, float radius,
+                                       shortshot::Neighborhood& n) {
+  return search.gather(center, radius, n);
+}
+
+[[gnu::noinline]] Status frame_of(const shortshot::Neighborhood& n, float radius, shortshot::Frame& frame) {
+  return shortshot::estimate_frame(n, radius, frame);
+}
+
+[[gnu::noinline]] Status normals_of_cloud(const shortshot::CloudView& view, const shortshot::GridSearch& search,
+                                          float radius, const shortshot::Point& camera,
+                                          std::vector<shortshot::Normal>& normals) {
+  return shortshot::estimate_normals(view, search, radius, normals, camera);
+}
+
+template <class D, class Colors, class Normals>
+[[gnu::noinline]] Status kernel(const shortshot::Neighborhood& n, const Colors& colors, const Normals& normals,
+                                const shortshot::Frame& frame, float radius, float* out) {
+  return shortshot::describe<D>(n, colors, normals, frame, radius, out);
+}
+
+template <class Rule>
+[[gnu::noinline]] Status lab_of_cloud(const shortshot::CloudView& view, shortshot::Lab* lab) {
+  return shortshot::convert_colors<Rule>(view, lab);
+}
+
+template <class D>
+[[gnu::noinline]] void bits_of(const float* values, shortshot::BinaryDescriptor<D>& bits) {
+  shortshot::binarize(values, bits);
+}
+
+template <class D>
+[[gnu::noinline]] int distance_to_all(const shortshot::BinaryDescriptor<D>& one,
+                                      const std::vector<shortshot::BinaryDescriptor<D>>& all) {
+  int sum = 0;
+  for (const auto& other : all) sum += shortshot::hamming_distance(one, other);
+  return sum;
+}
+
+std::size_t allocated_bytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+template <class Search>
+std::size_t index_bytes(const Workload& workload) {
+  const std::size_t before = allocated_bytes();
+  const Search search(workload.view(), workload.radius);
+  return allocated_bytes() - before;
+}
+
+/// nanoflann's tree, made like a grid.
+struct Tree : shortshot::NanoflannSearch {
+  Tree(const shortshot::CloudView& view, float) : NanoflannSearch(view) {}
+};
+
+/// Makes the list. What several stages need is shared by them.
+class StageList {
+ public:
+  explicit StageList(const Workload& workload)
+      : workload_(workload), grid_(std::make_shared<shortshot::GridSearch>(workload.view(), workload.radius)) {}
+
+  template <class Search>
+  void add_index(const char* name) {
+    const Workload& w = workload_;
+    Stage& stage = add(std::string("index ") + name, [&w] { return Search(w.view(), w.radius).status(); });
+    stage.points = w.cloud.size();
+    stage.bytes = index_bytes<Search>(w);
+  }
+
+  /// The grid of the next frame, in the memory of the last one.
+  void add_index_again() {
+    const Workload& w = workload_;
+    const auto search = std::make_shared<shortshot::GridSearch>();
+    Stage& stage = add("index grid again", [&w, search] { return search->build(w.view(), w.radius); });
+    stage.points = w.cloud.size();
+    stage.bytes = index_bytes<shortshot::GridSearch>(w);
+  }
+
+  void add_search_grid() { add_search("search grid", grid_); }
+  void add_search_nanoflann() {
+    add_search("search nanoflann", std::make_shared<Tree>(workload_.view(), workload_.radius));
+  }
+
+  void add_frame() {
+    const auto frame = std::make_shared<shortshot::Frame>();
+    add_for_chosen(
+        "frame", [frame](const GatheredKeyPoint& k, float radius) { return frame_of(k.neighborhood, radius, *frame); });
+  }
+
+  /// Of the whole cloud on one thread, the index not included; in the memory of the last run.
+  void add_normals() {
+    const Workload& w = workload_;
+    const auto near = std::make_shared<shortshot::GridSearch>(w.view(), w.normal_radius);
+    const auto normals = std::make_shared<std::vector<shortshot::Normal>>();
+    Stage& stage = add("normals", [&w, near, normals] {
+      return normals_of_cloud(w.view(), *near, w.normal_radius, camera_of_cloud(w.cloud), *normals);
+    });
+    stage.points = w.cloud.size();
+    stage.neighbors = w.normal_neighbors;
+    stage.bytes = stage.points * sizeof(shortshot::Normal);
+  }
+
+  void add_lab() {
+    if (!workload_.cloud.has_colors()) return;
+    Stage& stage = add("lab", [&w = workload_, lab = lab_by<shortshot::PublishedLab>()] {
+      return lab_of_cloud<shortshot::PublishedLab>(w.view(), lab->data());
+    });
+    stage.points = workload_.cloud.size();
+    stage.bytes = stage.points * sizeof(shortshot::Lab);
+  }
+
+  template <class D>
+  void add_descriptor(const char* name) {
+    if (D::needs_colors && !workload_.cloud.has_colors()) return;
+    add_kernel<D>(name);
+    add_extract<D>(name);
+  }
+
+  /// B-SHOT of the chosen key points, and the distances of the first one to all.
+  template <class D>
+  void add_binary(const char* name) {
+    using Bits = shortshot::BinaryDescriptor<D>;
+    constexpr auto size = static_cast<std::size_t>(D::size);
+    const auto run = kernel_of<D>();
+    const auto values = std::make_shared<std::vector<float>>(workload_.chosen.size() * size);
+    const auto bits = std::make_shared<std::vector<Bits>>(workload_.chosen.size());
+    for (std::size_t i = 0; i < workload_.chosen.size(); ++i) {  // a kernel that fails says so in its own stage
+      static_cast<void>(run(workload_.chosen[i], workload_.radius, values->data() + i * size));
+      bits_of<D>(values->data() + i * size, (*bits)[i]);
+    }
+    Stage& binarize = add(std::string("binarize ") + name, [values, bits] {
+      for (std::size_t i = 0; i < bits->size(); ++i) bits_of<D>(values->data() + i * size, (*bits)[i]);
+      return Status::ok;
+    });
+    binarize.keypoints = bits->size();
+    binarize.bytes = sizeof(Bits);
+    const auto distance = std::make_shared<int>();
+    Stage& hamming = add(std::string("hamming ") + name, [bits, distance] {
+      *distance = distance_to_all<D>(bits->front(), *bits);
+      return Status::ok;
+    });
+    hamming.keypoints = bits->size();
+  }
+
+  std::vector<Stage> stages;
+
+ private:
+  template <class Run>
+  Stage& add(std::string name, Run run) {
+    Stage stage;
+    stage.name = std::move(name);
+    stage.run = std::move(run);
+    stages.push_back(std::move(stage));
+    return stages.back();
+  }
+
+  template <class Search>
+  void add_search(const char* name, const std::shared_ptr<Search>& search) {
+    // Room to spare, as extract() has: a search may be slower where it has to count the last places.
+    const auto memory = std::make_shared<NeighborhoodMemory>(workload_.most_neighbors + workload_.most_neighbors / 2);
+    add_for_chosen(name, [search, memory](const GatheredKeyPoint& k, float radius) {
+      shortshot::Neighborhood n = memory->empty();
+      return search_around(*search, k.key.position, radius, n);
+    });
+  }
+
+  template <class Work>
+  Stage& add_for_chosen(std::string name, Work work) {
+    Stage& stage = add(std::move(name), [&w = workload_, work] {
+      Status first = Status::ok;
+      for (const GatheredKeyPoint& k : w.chosen) {
+        const Status status = work(k, w.radius);
+        if (first == Status::ok) first = status;
+      }
+      return first;
+    });
+    stage.keypoints = workload_.chosen.size();
+    stage.neighbors = workload_.chosen_neighbors;
+    return stage;
+  }
+
+  /// The cloud's colors by a rule.
+  template <class Rule>
+  std::shared_ptr<std::vector<shortshot::Lab>> lab_by() const {
+    const auto lab = std::make_shared<std::vector<shortshot::Lab>>(workload_.cloud.size());
+    static_cast<void>(lab_of_cloud<Rule>(workload_.view(), lab->data()));  // it has colors, all that can be wrong
+    return lab;
+  }
+
+  /// The kernel as a function of the key point, with the cloud's colors and normals at hand.
+  template <class D>
+  auto kernel_of() const {
+    std::shared_ptr<std::vector<shortshot::Lab>> lab;
+    if constexpr (D::needs_colors) lab = lab_by<typename D::LabRule>();
+    return [lab, view = workload_.view()](const GatheredKeyPoint& k, float radius, float* out) {
+      const auto run = [&](const auto& colors) {
+        return kernel<D>(k.neighborhood, colors, shortshot::CloudNormals{view}, k.frame, radius, out);
+      };
+      if constexpr (D::needs_colors) {
+        return run(shortshot::LabColors{lab->data(), shortshot::to_lab<typename D::LabRule>(k.key.color)});
+      } else {
+        return run(shortshot::NoColors{});
+      }
+    };
+  }
+
+  template <class D>
+  void add_kernel(const char* name) {
+    const auto out = std::make_shared<std::vector<float>>(static_cast<std::size_t>(D::size));
+    const auto run = kernel_of<D>();
+    Stage& stage = add_for_chosen(std::string("kernel ") + name, [run, out](const GatheredKeyPoint& k, float radius) {
+      return run(k, radius, out->data());
+    });
+    stage.bytes = D::size_bytes;
+  }
+
+  /// All sampled key points on one thread, the cloud's Lab included, the index not; in the memory of the last run.
+  template <class D>
+  void add_extract(const char* name) {
+    const auto features = std::make_shared<shortshot::Features<D>>();
+    Stage& stage = add(std::string("extract ") + name, [&w = workload_, grid = grid_, features] {
+      return shortshot::extract<D>(w.view(), *grid, w.sampled, w.radius, *features);
+    });
+    stage.keypoints = workload_.sampled.size();
+    stage.neighbors = workload_.sampled_neighbors;
+    stage.bytes = D::size_bytes;
+  }
+
+  const Workload& workload_;
+  std::shared_ptr<shortshot::GridSearch> grid_;
+};
+
+}  // namespace
+
+StageBuild STAGES(const Workload& workload) {
+  StageList list(workload);
+  list.add_index<shortshot::GridSearch>("grid");
+  list.add_index_again();
+  list.add_index<Tree>("nanoflann");
+  list.add_search_grid();
+  list.add_search_nanoflann();
+  list.add_frame();
+  list.add_normals();
+  list.add_lab();
+  list.add_descriptor<shortshot::Ssh32>("Ssh32");
+  list.add_descriptor<shortshot::Ssh96>("Ssh96");
+  list.add_descriptor<shortshot::Scsh336>("Scsh336");
+  list.add_descriptor<shortshot::Scsh696>("Scsh696");
+  list.add_descriptor<shortshot::Shot352>("Shot352");
+  list.add_descriptor<shortshot::Cshot1344>("Cshot1344");
+  list.add_binary<shortshot::Shot352>("Shot352");
+  return {std::string(TEXT(SHORTSHOT_ISA)).substr(std::string("isa_").size()), std::move(list.stages)};
+}
+
+}  // namespace shortshot_bench

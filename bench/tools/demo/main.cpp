@@ -1,0 +1,139 @@
+// demo: what the library does with your clouds, or with one made up on the spot.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "shortshot/cloud/cloud.hpp"
+#include "shortshot/status.hpp"
+#include "tools/demo/options.hpp"
+#include "tools/demo/run.hpp"
+#include "tools/io/input_error.hpp"
+#include "tools/io/read_cloud.hpp"
+#include "tools/io/view_of_cloud.hpp"
+#include "tools/io/write_descriptor_pcd.hpp"
+#include "tools/io/write_npy.hpp"
+#include "tools/scene/tabletop.hpp"
+
+namespace {
+
+using namespace shortshot_bench;
+
+/// FNV-1a over the descriptors' bytes: two runs that print the same number computed the same bits.
+std::uint64_t checksum(const std::vector<float>& values) {
+  std::uint64_t hash = 14695981039346656037u;
+  for (const float value : values) {
+    unsigned char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    for (const unsigned char byte : bytes) hash = (hash ^ byte) * 1099511628211u;
+  }
+  return hash;
+}
+
+std::size_t valid_points(const shortshot::CloudView& view) {
+  std::size_t valid = 0;
+  for (std::size_t i = 0; i < view.size; ++i) valid += shortshot::is_finite(shortshot::point(view, i)) ? 1 : 0;
+  return valid;
+}
+
+std::size_t with_normal(const std::vector<shortshot::Normal>& normals) {
+  return static_cast<std::size_t>(
+      std::count_if(normals.begin(), normals.end(), [](const shortshot::Normal& n) { return !std::isnan(n.x); }));
+}
+
+void print_result(const RgbdCloud& cloud, double read_ms, const DemoOptions& options, const DemoResult& result) {
+  const std::size_t keypoints = result.keypoints.size();
+  const double bytes = 4.0 * static_cast<double>(result.size);
+  const double sum = std::accumulate(result.neighbors.begin(), result.neighbors.end(), 0.0);
+  const auto [least, most] = std::minmax_element(result.neighbors.begin(), result.neighbors.end());
+  std::printf("  points              %zu (%zu x %zu), %zu valid, %s, in %.1f ms\n", cloud.size(), cloud.width,
+              cloud.height, valid_points(view_of_cloud(cloud)), cloud.has_colors() ? "with color" : "without color",
+              read_ms);
+  std::printf("  key points          %zu, one per %g m voxel, in %.1f ms\n", keypoints,
+              static_cast<double>(options.leaf), result.sample_ms);
+  if (!result.normals.empty()) {
+    std::printf("  normals             %zu points within %g m, in %.1f ms\n", with_normal(result.normals),
+                static_cast<double>(normal_radius(options)), result.normals_ms);
+  }
+  std::printf("  index               %s, in %.1f ms\n", options.search.c_str(), result.index_ms);
+  std::printf("  neighbors          %.0f per key point within %g m (%u to %u)\n", sum / static_cast<double>(keypoints),
+              static_cast<double>(options.radius), *least, *most);
+  std::printf("  describe            %s, %u thread%s, in %.1f ms: %.1f us per key point\n", options.descriptor.c_str(),
+              options.threads, options.threads == 1 ? "" : "s", result.describe_ms,
+              1e3 * result.describe_ms / static_cast<double>(keypoints));
+  std::printf("  size                %zu floats, %.0f bytes per descriptor, %.1f KB in all\n", result.size, bytes,
+              bytes * static_cast<double>(keypoints) / 1024.0);
+  std::printf("  checksum            %016llx\n", static_cast<unsigned long long>(checksum(result.values)));
+  for (int kind = 0; kind < shortshot::status_count; ++kind) {
+    const auto status = static_cast<shortshot::Status>(kind);
+    const auto rows = std::count(result.status.begin(), result.status.end(), status);
+    if (rows > 0) std::printf("  status              %6ld  %s\n", static_cast<long>(rows), shortshot::message(status));
+  }
+}
+
+/// Rows are key points in ascending order of their index; those without a descriptor are zeros.
+void write_result(const RgbdCloud& cloud, const DemoOptions& options, const DemoResult& result) {
+  if (options.out.substr(options.out.size() - 4) == ".npy") {
+    write_npy(options.out, result.values.data(), result.keypoints.size(), result.size);
+  } else {
+    std::vector<std::array<float, 3>> positions;
+    for (const std::uint32_t i : result.keypoints) {
+      positions.push_back({cloud.xyz[3 * i], cloud.xyz[3 * i + 1], cloud.xyz[3 * i + 2]});
+    }
+    std::vector<std::string> comments = {options.descriptor + ", radius " + std::to_string(options.radius) +
+                                         " m, L2 norm 1 (all zeros: not described); parts one after the other:"};
+    if (!result.normals.empty()) {
+      comments.insert(comments.begin(), "normals within " + std::to_string(normal_radius(options)) + " m");
+    }
+    comments.insert(comments.end(), result.layout.begin(), result.layout.end());
+    write_descriptor_pcd(options.out, positions, result.values.data(), result.size, comments);
+  }
+  std::printf("  written             %s: %zu rows of %zu floats\n", options.out.c_str(), result.keypoints.size(),
+              result.size);
+}
+
+/// 0: described; 1: --check found a difference; 2: bad input, said on stderr.
+int demonstrate(const std::string& file, const DemoOptions& options) {
+  const bool generated = file.empty();
+  try {
+    std::error_code not_there;
+    if (std::filesystem::equivalent(file, options.out, not_there)) {
+      throw std::runtime_error("--out would overwrite the cloud itself");
+    }
+    const Stopwatch reading;
+    const RgbdCloud cloud = generated ? make_tabletop() : read_cloud(file);
+    const double read_ms = reading.elapsed_ms();
+    std::printf("%s\n", generated ? "generated tabletop scene" : file.c_str());
+    const DemoResult result = run_demo(cloud, options);
+    print_result(cloud, read_ms, options, result);
+    if (!options.out.empty()) write_result(cloud, options, result);
+    if (options.check && !check_searches(cloud, options)) return 1;
+    return 0;
+  } catch (const InputError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", generated ? "generated tabletop scene" : file.c_str(), error.what());
+  }
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  DemoOptions options;
+  int exit_code = 0;
+  if (!parse_options(argc, argv, options, exit_code)) return exit_code;
+  if (options.clouds.empty()) return demonstrate({}, options);
+  for (const std::string& file : options.clouds) exit_code = std::max(exit_code, demonstrate(file, options));
+  return exit_code;
+}

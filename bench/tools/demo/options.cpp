@@ -1,0 +1,51 @@
+#include "tools/demo/options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "tools/io/finite_and_positive.hpp"
+
+namespace shortshot_bench {
+bool parse_options(int argc, const char* const* argv, DemoOptions& options, int& exit_code) {
+  CLI::App app(
+      "Describe the key points of RGB-D point clouds; without a file, of a tabletop scene made up on the spot.");
+  app.name("demo");
+  app.add_option("clouds", options.clouds, "PCD or PLY files");
+  app.add_option("--descriptor", options.descriptor, "ssh32, ssh96, scsh336, scsh696, shot352 or cshot1344")
+      ->check(CLI::IsMember({"ssh32", "ssh96", "scsh336", "scsh696", "shot352", "cshot1344"}))
+      ->capture_default_str();
+  app.add_option("--radius", options.radius, "support radius, in the clouds' unit (meters)")
+      ->check(finite_and_positive)
+      ->capture_default_str();
+  app.add_option("--normal-radius", options.normal_radius,
+                 "radius of the normals for shot352 and cshot1344 [a quarter of --radius]")
+      ->check(finite_and_positive);
+  app.add_option("--leaf", options.leaf, "voxel size of the uniform key points, in the same unit")
+      ->check(finite_and_positive)
+      ->capture_default_str();
+  app.add_option("--search", options.search, "grid, nanoflann, organized or brute")
+      ->check(CLI::IsMember({"grid", "nanoflann", "organized", "brute"}))
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "threads, 1 to 256")->check(CLI::Range(1, 256))->capture_default_str();
+  app.add_option("--out", options.out, "write the descriptors to this .npy or .pcd file (one cloud only)");
+  app.add_flag("--towards-camera", options.towards_camera, "turn the frames' z axes towards the camera");
+  app.add_flag("--check", options.check, "compare all searches, and 1, 2 and 3 threads: exit 1 if a bit differs");
+  exit_code = 0;
+  try {
+    app.parse(argc, argv);
+    const auto ends_with = [&](const std::string& end) {
+      return options.out.size() > end.size() && options.out.substr(options.out.size() - end.size()) == end;
+    };
+    if (!options.out.empty() && !ends_with(".npy") && !ends_with(".pcd")) {
+      throw CLI::ValidationError("--out", "must end in .npy or .pcd, not '" + options.out + "'");
+    }
+    if (!options.out.empty() && options.clouds.size() > 1) {
+      throw CLI::ValidationError("--out", "takes one cloud, not " + std::to_string(options.clouds.size()));
+    }
+  } catch (const CLI::ParseError& error) {
+    exit_code = app.exit(error) == 0 ? 0 : 2;
+    return false;
+  }
+  return true;
+}
+
+}  // namespace shortshot_bench

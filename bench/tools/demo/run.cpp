@@ -1,0 +1,150 @@
+#include "tools/demo/run.hpp"
+
+#include <cstdio>
+#include <cstring>
+#include <nanoflann.hpp>
+#include <stdexcept>
+
+#include "shortshot/search/nanoflann.hpp"
+#include "shortshot/shortshot.hpp"
+#include "tools/io/view_of_cloud.hpp"
+
+namespace shortshot_bench {
+namespace {
+
+using shortshot::Status;
+
+void require(Status status, const std::string& hint = {}) {
+  if (status != Status::ok) throw std::runtime_error(std::string(shortshot::message(status)) + hint);
+}
+
+/// Builds the search of that name over the cloud, which serves this radius best, and calls work(search).
+template <class Work>
+void with_search(const shortshot::CloudView& view, const std::string& name, float radius, const Work& work) {
+  if (name == "nanoflann") {
+    work(shortshot::NanoflannSearch(view));
+  } else if (name == "organized") {
+    shortshot::OrganizedSearch search;
+    require(search.build(view), " (--search grid works for any cloud)");
+    work(search);
+  } else if (name == "brute") {
+    work(shortshot::BruteSearch{view});
+  } else {
+    const shortshot::GridSearch search(view, radius);
+    require(search.status());
+    work(search);
+  }
+}
+
+void estimate_normals(const RgbdCloud& cloud, const DemoOptions& options, DemoResult& result) {
+  const shortshot::CloudView view = view_of_cloud(cloud);
+  const float radius = normal_radius(options);
+  const Stopwatch stopwatch;
+  with_search(view, options.search, radius, [&](const auto& search) {
+    require(shortshot::estimate_normals(view, search, radius, result.normals, camera_of_cloud(cloud), options.threads));
+  });
+  result.normals_ms = stopwatch.elapsed_ms();
+}
+
+template <class Part>
+std::string layout_of(const char* name) {
+  using Grid = typename Part::Grid;
+  const std::string elevation = std::to_string(Grid::elevation) + " elevation";
+  const std::string radial = std::to_string(Grid::radial) + " radial";
+  constexpr bool elevation_faster = Part::index(0, 1, 0) < Part::index(1, 0, 0);
+  return std::string(name) + ": " + std::to_string(Grid::azimuth) + " azimuth x " +
+         (elevation_faster ? radial + " x " + elevation : elevation + " x " + radial) + " cells x " +
+         std::to_string(Part::values) + " bins, the last index fastest";
+}
+
+template <class Signal>
+constexpr const char* name_of() {
+  return Signal::needs_colors ? "color distance" : Signal::needs_normals ? "normals" : "occupancy";
+}
+
+template <class Voting, class... Parts>
+std::vector<std::string> layout_of(shortshot::Descriptor<Voting, Parts...>) {
+  return {layout_of<Parts>(name_of<typename Parts::Signal>())...};
+}
+
+template <class D>
+DemoResult describe(const RgbdCloud& cloud, const DemoOptions& options) {
+  shortshot::CloudView view = view_of_cloud(cloud);
+  DemoResult result;
+  result.size = static_cast<std::size_t>(D::size);
+  result.layout = layout_of(D{});
+  const Stopwatch sampling;
+  require(shortshot::sample_uniform(view, options.leaf, result.keypoints));
+  result.sample_ms = sampling.elapsed_ms();
+  if (D::needs_normals) {
+    estimate_normals(cloud, options, result);
+    view = shortshot::with_normals(view, result.normals.data());
+  }
+
+  shortshot::Support support = options.radius;
+  const shortshot::Point camera = camera_of_cloud(cloud);
+  if (options.towards_camera) support.viewpoint = &camera;
+  shortshot::Features<D> features;
+  const Stopwatch indexing;
+  with_search(view, options.search, options.radius, [&](const auto& search) {
+    result.index_ms = indexing.elapsed_ms();
+    const Stopwatch describing;
+    const char* hint = D::needs_colors && !cloud.has_colors() ? " (--descriptor ssh96 needs none)" : "";
+    require(shortshot::extract<D>(view, search, result.keypoints, support, features, options.threads), hint);
+    result.describe_ms = describing.elapsed_ms();
+  });
+  result.values = std::move(features.values);
+  result.status = std::move(features.status);
+  result.neighbors = std::move(features.neighbors);
+  return result;
+}
+
+template <class Value>
+bool same_bits(const std::vector<Value>& a, const std::vector<Value>& b) {
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Value)) == 0);
+}
+
+bool same_bits(const DemoResult& a, const DemoResult& b) {
+  return a.neighbors == b.neighbors && a.status == b.status && same_bits(a.normals, b.normals) &&
+         same_bits(a.values, b.values);
+}
+
+}  // namespace
+
+float normal_radius(const DemoOptions& options) { return options.normal_radius.value_or(0.25f * options.radius); }
+
+DemoResult run_demo(const RgbdCloud& cloud, const DemoOptions& options) {
+  if (options.descriptor == "ssh32") return describe<shortshot::Ssh32>(cloud, options);
+  if (options.descriptor == "ssh96") return describe<shortshot::Ssh96>(cloud, options);
+  if (options.descriptor == "scsh696") return describe<shortshot::Scsh696>(cloud, options);
+  if (options.descriptor == "shot352") return describe<shortshot::Shot352>(cloud, options);
+  if (options.descriptor == "cshot1344") return describe<shortshot::Cshot1344>(cloud, options);
+  return describe<shortshot::Scsh336>(cloud, options);
+}
+
+bool check_searches(const RgbdCloud& cloud, const DemoOptions& options) {
+  DemoOptions variant = options;
+  variant.search = "brute";
+  const DemoResult reference = run_demo(cloud, variant);
+  bool all_same = true;
+  const auto compare = [&](const char* search, unsigned threads) {
+    variant.search = search;
+    variant.threads = threads;
+    const bool same = same_bits(reference, run_demo(cloud, variant));
+    std::printf("  check               %-9s %u thread%s: %s\n", search, threads, threads == 1 ? "" : "s",
+                same ? "the same bits as brute force" : "DIFFERENT from brute force");
+    all_same = all_same && same;
+  };
+  for (const unsigned threads : {1u, 2u, 3u}) compare("grid", threads);
+  compare("nanoflann", 2);
+  shortshot::OrganizedSearch organized;
+  const Status status = organized.build(view_of_cloud(cloud));
+  if (status == Status::ok) {
+    compare("organized", 2);
+  } else {
+    std::printf("  check               organized not applicable: %s\n", shortshot::message(status));
+  }
+  return all_same;
+}
+
+}  // namespace shortshot_bench

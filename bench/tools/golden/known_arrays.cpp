@@ -1,0 +1,81 @@
+#include "known_arrays.hpp"
+
+#include <map>
+
+#include "shortshot/color/lab.hpp"
+#include "shortshot/descriptor/descriptor.hpp"
+#include "shortshot/descriptor/spherical_grid.hpp"
+#include "shortshot/kernel/describe.hpp"
+
+namespace shortshot_bench::golden {
+namespace {
+
+template <class D>
+shortshot::Status describe_by(const shortshot::Neighborhood& n, const shortshot::CloudView& cloud,
+                              shortshot::Rgb key_color, const shortshot::Frame& frame, shortshot::Radius radius,
+                              float* out) {
+  const shortshot::CloudNormals normals{cloud};
+  if constexpr (D::needs_colors) {
+    using Rule = typename D::LabRule;
+    const shortshot::RgbColors<Rule> colors{cloud, shortshot::to_lab<Rule>(key_color)};
+    return shortshot::describe<D>(n, colors, normals, frame, radius, out);
+  } else {
+    return shortshot::describe<D>(n, shortshot::NoColors{}, normals, frame, radius, out);
+  }
+}
+
+template <class D>
+constexpr DescriptorOutput output_of(const char* name) {
+  return {name, D::size, D::needs_colors, D::needs_normals, describe_by<D>};
+}
+
+template <int R, int E, int A>
+using Grid = shortshot::SphericalGrid<R, E, A>;
+
+constexpr DescriptorOutput descriptors[] = {
+    output_of<shortshot::Ssh<Grid<1, 1, 8>>>("ssh8"),
+    output_of<shortshot::Ssh<Grid<2, 2, 4>>>("ssh16"),
+    output_of<shortshot::Ssh32>("ssh32"),
+    output_of<shortshot::Ssh<Grid<2, 4, 8>>>("ssh64"),
+    output_of<shortshot::Ssh96>("ssh96"),
+    output_of<shortshot::Ssh<Grid<8, 4, 8>>>("ssh256"),
+    output_of<shortshot::Scsh336>("scsh336"),
+    output_of<shortshot::Scsh696>("scsh696"),
+    output_of<shortshot::Scsh<Grid<2, 2, 8>, Grid<1, 1, 8>, 10>>("scsh_32_8_10"),
+    output_of<shortshot::Scsh<Grid<4, 4, 8>, Grid<2, 2, 8>, 30>>("scsh_128_32_30"),
+    output_of<shortshot::PclShot352>("shot352"),
+    output_of<shortshot::PclCshot1344>("cshot1344"),
+};
+
+}  // namespace
+
+const DescriptorOutput* find_descriptor(const std::string& name) {
+  for (const DescriptorOutput& descriptor : descriptors) {
+    if (name == descriptor.name) return &descriptor;
+  }
+  return nullptr;
+}
+
+std::optional<KnownArray> find_known_array(const std::string& name) {
+  static const std::map<std::string, KnownArray> others = {
+      {"points", {"<f4", "", {3}, Role::input}},
+      {"rgb", {"u1", "points", {3}, Role::input}},
+      {"normals", {"<f4", "points", {3}, Role::input}},
+      {"keypoints", {"<i4", "", {}, Role::input}},
+      {"frames", {"<f4", "keypoints", {3, 3}, Role::input}},
+      {"neighbor_count", {"<i4", "keypoints", {}, Role::reference}},
+      {"lrf_pcl", {"<f4", "keypoints", {3, 3}, Role::reference}},
+      {"lab_pcl", {"<f4", "rgb", {3}, Role::reference}},
+      {"lab_authors", {"<f4", "rgb", {3}, Role::reference}},
+      {"bshot", {"u1", "keypoints", {44}, Role::reference}},
+      {"fpfh33", {"<f4", "keypoints", {33}, Role::later}},
+  };
+  if (const DescriptorOutput* descriptor = find_descriptor(name)) {
+    return KnownArray{"<f4", "keypoints", {static_cast<std::uint64_t>(descriptor->size)}, Role::reference};
+  }
+  const auto found = others.find(name);
+  if (found == others.end()) return std::nullopt;
+  return found->second;
+}
+
+}  // namespace shortshot_bench::golden

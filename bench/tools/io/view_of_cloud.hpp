@@ -1,0 +1,15 @@
+// A cloud of the tools as the library sees it.
+#pragma once
+
+#include "rgbd_cloud.hpp"
+#include "shortshot/cloud/cloud.hpp"
+
+namespace shortshot_bench {
+
+/// Borrows the cloud, whose rows and columns it keeps.
+shortshot::CloudView view_of_cloud(const RgbdCloud& cloud);
+
+/// Where the camera was.
+shortshot::Point camera_of_cloud(const RgbdCloud& cloud);
+
+}  // namespace shortshot_bench

@@ -1,0 +1,30 @@
+// shortshot/base/fixed_point.hpp: sums that do not depend on their order.
+//
+// Float additions round, so a sum depends on the order of its terms: on the search that found the neighbors, on the
+// number of lanes, on the number of threads. Every sum over neighbors in this library adds numbers that were first
+// scaled by a power of two and rounded to integers: exact additions, the same bits whatever the order.
+#pragma once
+
+#include <cstdint>
+
+#include "../config.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// The largest e such that `n` numbers of magnitude up to 2^bits, times 2^e, can be added up in any order without
+/// leaving int32, and each has at most 22 bits (what simd::round_to_int() can take).
+[[nodiscard]] inline int fixed_point_exponent(std::uint32_t n, int bits) noexcept {
+  const int exponent = n > 256 ? __builtin_clz(n - 1) - 2 : 22;  // 2^(30 - exponent) >= n
+  return exponent - bits;
+}
+
+/// The same as a factor, for numbers of magnitude up to 1.
+[[nodiscard]] inline float fixed_point_scale(std::uint32_t n) noexcept {
+  return static_cast<float>(1 << fixed_point_exponent(n, 0));
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

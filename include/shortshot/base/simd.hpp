@@ -1,0 +1,56 @@
+// shortshot/base/simd.hpp: the thin lane shim. Every pass of the kernel is written once, in terms of F32, I32 and Mask;
+// the compiler's own macros choose what they are: AVX2, SSE2, NEON (aarch64) or one lane at a time.
+//
+// All operations are exactly rounded IEEE single precision or pure bit moves, and every accumulation in the kernel is
+// an integer sum (fixed_point.hpp), so that the number of lanes never changes a result.
+#pragma once
+
+#include <cstdint>
+
+#include "../config.hpp"
+#include "unfused.hpp"
+
+#if defined(__AVX2__)
+#include "simd_avx2.hpp"
+#elif defined(__SSE2__)
+#include "simd_sse2.hpp"
+#elif defined(__aarch64__)
+#include "simd_neon.hpp"
+#else
+#include "simd_scalar.hpp"
+#endif
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace simd {
+
+/// f applied lane by lane, for the rare function that is not worth a vector version.
+template <class Function>
+[[nodiscard]] inline F32 apply(Function f, F32 a) noexcept {
+  float values[lanes];
+  store(values, a);
+  for (float& value : values) value = f(value);
+  return load(values);
+}
+
+/// The largest lane.
+[[nodiscard, gnu::always_inline]] inline float largest(F32 a) noexcept {
+  float values[lanes];
+  store(values, a);
+  float result = values[0];
+  for (const float value : values) result = value > result ? value : result;
+  return result;
+}
+
+/// Sum of all lanes.
+[[nodiscard, gnu::always_inline]] inline std::int32_t sum(I32 a) noexcept {
+  std::int32_t values[lanes];
+  store(values, a);
+  std::int32_t total = 0;
+  for (const std::int32_t value : values) total += value;
+  return total;
+}
+
+}  // namespace simd
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

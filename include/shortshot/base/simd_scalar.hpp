@@ -1,0 +1,158 @@
+// shortshot/base/simd_scalar.hpp: the lane shim one lane at a time: microcontrollers, and whatever has no other.
+// Included by simd.hpp, which says what it must do.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "../config.hpp"
+#include "unfused.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace simd {
+
+inline constexpr std::size_t lanes = 1;
+
+struct F32 {
+  float v;
+};
+struct I32 {
+  std::int32_t v;
+};
+struct Mask {
+  bool v;
+};
+
+/// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno; where there is no
+/// instruction for it, this does too (libm's sqrtf is exactly rounded everywhere).
+[[nodiscard]] inline float root(float value) noexcept {
+#if defined(__ARM_FP)
+  float result;
+  __asm__("vsqrt.f32 %0, %1" : "=t"(result) : "t"(value));
+  return result;
+#elif defined(__riscv_flen)
+  float result;
+  __asm__("fsqrt.s %0, %1" : "=f"(result) : "f"(value));
+  return result;
+#else
+  return __builtin_sqrtf(value);
+#endif
+}
+
+[[nodiscard]] inline F32 load(const float* p) noexcept { return {*p}; }
+[[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept { return {static_cast<std::int32_t>(*p)}; }
+inline void store(float* p, F32 a) noexcept { *p = a.v; }
+inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
+inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint32_t>(a.v); }
+[[nodiscard]] inline F32 all(float value) noexcept { return {value}; }
+/// value_at(k) in lane k.
+template <class Function>
+[[nodiscard, gnu::always_inline]] inline F32 from_lanes(Function value_at) noexcept {
+  return {value_at(0)};
+}
+
+[[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {a.v + b.v}; }
+[[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {a.v - b.v}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {rounded(a.v * b.v)}; }
+[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {a.v / b.v}; }
+[[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {a.v + b.v}; }
+[[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {a.v < b.v}; }
+[[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {a.v > b.v}; }
+[[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {a.v >= b.v}; }
+[[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {a.v != b.v}; }
+[[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
+
+[[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {root(a.v)}; }
+[[nodiscard]] inline F32 abs(F32 a) noexcept { return {__builtin_fabsf(a.v)}; }
+[[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {a.v < b.v ? a.v : b.v}; }
+[[nodiscard]] inline F32 max(F32 a, F32 b) noexcept { return {a.v > b.v ? a.v : b.v}; }
+
+/// yes where m, else no.
+[[nodiscard]] inline F32 select(Mask m, F32 yes, F32 no) noexcept { return {m.v ? yes.v : no.v}; }
+/// -a where m, else a.
+[[nodiscard]] inline F32 negate(Mask m, F32 a) noexcept { return {m.v ? -a.v : a.v}; }
+/// a where m, else zero.
+[[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {m.v ? a.v : 0.0f}; }
+[[nodiscard]] inline bool any(Mask m) noexcept { return m.v; }
+[[nodiscard]] inline bool every(Mask m) noexcept { return m.v; }
+/// a + 1 where m, else a.
+[[nodiscard]] inline I32 increment(Mask m, I32 a) noexcept { return {a.v + (m.v ? 1 : 0)}; }
+
+/// The integers whose bits are those of a.
+[[nodiscard]] inline I32 bits_of(F32 a) noexcept {
+  I32 bits{};
+  std::memcpy(&bits.v, &a.v, sizeof bits.v);
+  return bits;
+}
+/// The floats whose bits are those of a.
+[[nodiscard]] inline F32 from_bits(I32 a) noexcept {
+  F32 value{};
+  std::memcpy(&value.v, &a.v, sizeof value.v);
+  return value;
+}
+[[nodiscard]] inline F32 to_float(I32 a) noexcept { return {static_cast<float>(a.v)}; }
+
+/// Towards zero; |a| must stay below 2^31.
+[[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {static_cast<std::int32_t>(a.v)}; }
+
+/// To the nearest integer, ties to even; |a| <= 2^22. Adding 1.5 * 2^23 leaves the integer in the low mantissa bits:
+/// the same bits on every machine, with no call into libm.
+[[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {bits_of({a.v + 12582912.0f}).v - 0x4B400000}; }
+
+/// Lanes of integers.
+[[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {value}; }
+[[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {a.v - b.v}; }
+[[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {a.v & b.v}; }
+[[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {a.v == b.v}; }
+[[nodiscard]] inline Mask operator>(I32 a, I32 b) noexcept { return {a.v > b.v}; }
+[[nodiscard]] inline I32 shift_left(I32 a, int count) noexcept { return {a.v * (std::int32_t{1} << count)}; }
+/// Towards minus infinity (as every compiler we know shifts, and C++20 demands).
+[[nodiscard]] inline I32 shift_right(I32 a, int count) noexcept { return {a.v >> count}; }
+/// For numbers from -1 to 2^15 - 1.
+[[nodiscard]] inline I32 small_min(I32 a, I32 b) noexcept { return {a.v < b.v ? a.v : b.v}; }
+[[nodiscard]] inline I32 small_max(I32 a, I32 b) noexcept { return {a.v > b.v ? a.v : b.v}; }
+/// For a from -2^15, b from 0, to 2^15 - 1.
+[[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
+/// For numbers from 0 to 2^31 - 1, as is the product.
+[[nodiscard]] inline I32 product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
+[[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {a.v < 0}; }
+/// -1 where m, else 1.
+[[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept { return {m.v ? -1 : 1}; }
+/// ~a where m, else a.
+[[nodiscard]] inline I32 invert(Mask m, I32 a) noexcept { return {m.v ? ~a.v : a.v}; }
+/// a where m, else zero.
+[[nodiscard]] inline I32 keep(Mask m, I32 a) noexcept { return {m.v ? a.v : 0}; }
+/// Zero where m, else a.
+[[nodiscard]] inline I32 drop(Mask m, I32 a) noexcept { return {m.v ? 0 : a.v}; }
+/// -a where `sign` has its sign bit set, else a.
+[[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept { return {bits_of(sign).v < 0 ? -a.v : a.v}; }
+
+/// The three floats at base + 3 * index[k], for all lanes.
+[[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
+                                                F32& c) noexcept {
+  const float* const p = base + 3 * static_cast<std::size_t>(*index);
+  a = {p[0]};
+  b = {p[1]};
+  c = {p[2]};
+}
+
+/// Lanes 0 to count - 1; count is 1 or more.
+[[nodiscard]] inline Mask first(std::size_t) noexcept { return {true}; }
+
+/// How store() packs the lanes where a mask is set.
+struct Packing {
+  std::uint32_t count;
+};
+
+[[nodiscard]] inline Packing packing(Mask m) noexcept { return {m.v ? 1u : 0u}; }
+
+/// The lanes where the mask is set, one behind the other; what is written behind them, up to a register's length, means
+/// nothing.
+inline void store(float* p, F32 a, const Packing&) noexcept { *p = a.v; }
+inline void store(std::uint32_t* p, I32 a, const Packing&) noexcept { store(p, a); }
+
+}  // namespace simd
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

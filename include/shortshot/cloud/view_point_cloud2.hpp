@@ -1,0 +1,99 @@
+// shortshot/cloud/view_point_cloud2.hpp: views of sensor_msgs/PointCloud2-shaped messages, without including ROS.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "../config.hpp"
+#include "../status.hpp"
+#include "cloud.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// PointField datatypes that can be read in place.
+inline constexpr int field_uint32 = 6;
+inline constexpr int field_float32 = 7;
+
+[[nodiscard]] inline bool is_little_endian() noexcept {
+  const std::uint16_t one = 1;
+  unsigned char first = 0;
+  std::memcpy(&first, &one, 1);
+  return first == 1;
+}
+
+template <class Name>
+[[nodiscard]] bool is_named(const Name& name, const char* text) noexcept {
+  return name == text;
+}
+
+/// Offset of a field with this name and a readable type, or -1.
+template <class Message>
+[[nodiscard]] std::int64_t offset_of(const Message& message, const char* name, bool packed_color) noexcept {
+  for (const auto& field : message.fields) {
+    if (!is_named(field.name, name)) continue;
+    const int type = static_cast<int>(field.datatype);
+    const bool readable = type == field_float32 || (packed_color && type == field_uint32);
+    const bool inside = static_cast<std::uint64_t>(field.offset) + 4 <= static_cast<std::uint64_t>(message.point_step);
+    return readable && inside ? static_cast<std::int64_t>(field.offset) : -1;
+  }
+  return -1;
+}
+
+}  // namespace detail
+
+/// View of a message with members data (data(), size()), fields (name, offset, datatype), point_step, row_step, width,
+/// height and is_bigendian. Fields x, y, z must be FLOAT32; color is a field `rgb` or `rgba`, a FLOAT32 or UINT32 with
+/// 0xAARRGGBB packed into it; normals are FLOAT32 fields normal_x, normal_y, normal_z. The view borrows the message's
+/// bytes.
+///
+/// Statuses: empty_cloud (no point); bad_view (and an empty view): no x, y or z of that type, a field outside
+/// point_step, data shorter than width * height points, padded rows, or the other byte order. No allocation.
+template <class Message>
+[[nodiscard]] Status view_point_cloud2(const Message& message, CloudView& view) noexcept {
+  view = CloudView{};
+  const std::int64_t x = detail::offset_of(message, "x", false);
+  const std::int64_t y = detail::offset_of(message, "y", false);
+  const std::int64_t z = detail::offset_of(message, "z", false);
+  if (x < 0 || y < 0 || z < 0) return Status::bad_view;
+  if (static_cast<bool>(message.is_bigendian) == detail::is_little_endian()) return Status::bad_view;
+
+  const auto step = static_cast<std::size_t>(message.point_step);
+  const auto width = static_cast<std::size_t>(message.width);
+  const auto height = static_cast<std::size_t>(message.height);
+  if (height > 1 && static_cast<std::uint64_t>(message.row_step) != static_cast<std::uint64_t>(width) * step) {
+    return Status::bad_view;
+  }
+  if (width == 0 || height == 0) return Status::empty_cloud;
+  if (message.data.size() / step / width < height) return Status::bad_view;
+
+  const auto* data = reinterpret_cast<const unsigned char*>(message.data.data());
+  view.points = {data + x, data + y, data + z, step};
+  view.size = width * height;
+  view.width = width;
+  view.height = height;
+
+  std::int64_t color = detail::offset_of(message, "rgb", true);
+  if (color < 0) color = detail::offset_of(message, "rgba", true);
+  if (color >= 0) {
+    const unsigned char* packed = data + color;
+    const bool little = detail::is_little_endian();
+    view.colors = {packed + (little ? 2 : 1), packed + (little ? 1 : 2), packed + (little ? 0 : 3), step};
+  }
+  const std::int64_t normal_x = detail::offset_of(message, "normal_x", false);
+  const std::int64_t normal_y = detail::offset_of(message, "normal_y", false);
+  const std::int64_t normal_z = detail::offset_of(message, "normal_z", false);
+  if (normal_x >= 0 && normal_y >= 0 && normal_z >= 0) {
+    view.normals = {data + normal_x, data + normal_y, data + normal_z, step};
+  }
+  return Status::ok;
+}
+
+/// A message that dies at the end of the statement cannot be viewed.
+template <class Message>
+Status view_point_cloud2(const Message&& message, CloudView& view) = delete;
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

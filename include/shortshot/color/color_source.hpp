@@ -1,0 +1,108 @@
+// shortshot/color/color_source.hpp: where a descriptor's colors come from: the cloud's bytes, or an array converted
+// before.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+
+#include "../base/simd.hpp"
+#include "../cloud/cloud.hpp"
+#include "../config.hpp"
+#include "../status.hpp"
+#include "lab.hpp"
+#include "packed_lab.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// Colors of a cloud's points by index, and the key point's own: what a ColorDistance compares. This source converts
+/// every neighbor's bytes when it is asked: no memory per point.
+template <class LabRule>
+struct RgbColors {
+  using Rule = LabRule;
+  ColorChannel bytes;  ///< the cloud's
+  Lab reference;
+  RgbColors(const CloudView& cloud, const Lab& color) noexcept : bytes(cloud.colors), reference(color) {}
+  [[nodiscard]] Status status() const noexcept { return bytes.r != nullptr ? Status::ok : Status::missing_colors; }
+  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return to_lab<LabRule>(read(bytes, index)); }
+};
+
+/// The same from an array that holds each point's color, converted once for the whole cloud by convert_colors().
+template <class Color>
+struct StoredColors {
+  const Color* lab;  ///< one per point of the cloud, borrowed
+  Lab reference;
+  [[nodiscard]] Status status() const noexcept { return lab != nullptr ? Status::ok : Status::missing_colors; }
+  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return lab[index]; }
+};
+
+using LabColors = StoredColors<Lab>;           ///< 12 bytes a point
+using PackedColors = StoredColors<PackedLab>;  ///< 4 bytes a point; for its error see PackedLab
+
+/// For descriptors without color.
+struct NoColors {
+  [[nodiscard]] static Status status() noexcept { return Status::ok; }
+};
+
+/// One register of colors by index.
+template <class Colors>
+[[nodiscard]] inline LabLanes colors_at(const Colors& colors, const std::uint32_t* index) noexcept {
+  if constexpr (simd::lanes == 1) return in_all_lanes(colors(*index));
+  float lanes[3][simd::lanes];
+  for (std::size_t k = 0; k < simd::lanes; ++k) {
+    const Lab color = colors(index[k]);
+    lanes[0][k] = color.L;
+    lanes[1][k] = color.a;
+    lanes[2][k] = color.b;
+  }
+  return {simd::load(lanes[0]), simd::load(lanes[1]), simd::load(lanes[2])};
+}
+
+[[nodiscard]] inline LabLanes colors_at(const LabColors& colors, const std::uint32_t* index) noexcept {
+  LabLanes lab;
+  simd::load_triples(&colors.lab->L, index, lab.L, lab.a, lab.b);
+  return lab;
+}
+
+[[nodiscard]] inline LabLanes colors_at(const PackedColors& colors, const std::uint32_t* index) noexcept {
+  return PackedLab::at(colors.lab, index);
+}
+
+namespace detail {
+
+/// Colors [begin, end) of a cloud, each converted by convert(rgb).
+template <class Convert, class Color>
+inline void convert_range(const CloudView& cloud, std::size_t begin, std::size_t end, const Convert& convert,
+                          Color* lab) noexcept {
+  for (std::size_t i = begin; i < end; ++i) lab[i] = convert(color(cloud, i));
+}
+
+}  // namespace detail
+
+/// Convert all colors of a cloud into `lab`: cloud.size elements of the caller's, each a Lab or a PackedLab. Statuses:
+/// empty_cloud, bad_view, missing_colors. No allocation.
+template <class LabRule, class Color>
+[[nodiscard]] inline Status convert_colors(const CloudView& cloud, Color* lab) noexcept {
+  const Status usable = check(cloud);
+  if (usable != Status::ok) return usable;
+  if (!has_colors(cloud)) return Status::missing_colors;
+  detail::convert_range(cloud, 0, cloud.size, to_lab<LabRule>, lab);
+  return Status::ok;
+}
+
+namespace detail {
+
+/// Where a color source names the rule it converts by, it must be the descriptor's.
+template <class D, class Colors>
+constexpr bool has_rule_of(const typename Colors::Rule*) noexcept {
+  return !D::needs_colors || std::is_same<typename Colors::Rule, typename D::LabRule>::value;
+}
+template <class D, class Colors>
+constexpr bool has_rule_of(...) noexcept {
+  return true;
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

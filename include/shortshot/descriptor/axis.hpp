@@ -1,0 +1,34 @@
+// shortshot/descriptor/axis.hpp: one axis of a part: its cells, and what lies beyond them.
+#pragma once
+
+#include <cstdint>
+
+#include "../config.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// What lies beyond the last cell of an axis: nothing (radius, elevation, signal) or the first cell (azimuth).
+enum class Beyond : std::uint8_t { nothing, first_cell };
+
+/// What positions below zero mean, by as much as a cell: there are none, the rest of the first cell (logarithmic
+/// shells), or no place on this axis at all (the azimuth of a point on the frame's z axis, by SHOT's convention).
+enum class BelowZero : std::uint8_t { never, first_cell, nowhere };
+
+/// One axis of a part: its number of cells, the distance of two neighboring cells in the descriptor, and its ends.
+/// Positions along it are fixed-point numbers of cells with `bits` bits behind the point. A value and not a type: where
+/// code is inlined for speed it is as constant, and where it shall be small all axes share one function.
+struct Axis {
+  std::int32_t cells;
+  std::int32_t stride;
+  Beyond end;
+  BelowZero below_zero;
+  std::int8_t bits;
+
+  /// A whole cell, and the whole axis.
+  [[nodiscard]] constexpr float one() const noexcept { return static_cast<float>(std::int32_t{1} << bits); }
+  [[nodiscard]] constexpr float length() const noexcept { return static_cast<float>(cells) * one(); }
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

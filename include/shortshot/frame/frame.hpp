@@ -1,0 +1,230 @@
+// shortshot/frame/frame.hpp: the SHOT local reference frame of a gathered neighborhood.
+#pragma once
+
+#include <cstdint>
+
+#include "../base/fixed_point.hpp"
+#include "../base/math.hpp"
+#include "../base/simd.hpp"
+#include "../base/symmetric_eigen.hpp"
+#include "../base/unfused.hpp"
+#include "../base/unroll.hpp"
+#include "../config.hpp"
+#include "../search/neighborhood.hpp"
+#include "../status.hpp"
+#include "rank_by_distance.hpp"
+
+namespace shortshot {
+
+/// A local reference frame: three orthonormal axes in the cloud's coordinates, right-handed. Trivial type.
+struct Frame {
+  float x[3];
+  float y[3];
+  float z[3];
+};
+
+inline namespace SHORTSHOT_ISA {
+
+/// Fewest neighbors (other than the key point and its copies) for a frame, as in PCL.
+inline constexpr int min_frame_neighbors = 5;
+
+[[nodiscard]] inline float dot(const float (&a)[3], const float (&b)[3]) noexcept {
+  return (rounded(a[0] * b[0]) + rounded(a[2] * b[2])) + rounded(a[1] * b[1]);
+}
+
+/// Is this a frame one can describe in: finite, and orthonormal within 1e-3?
+[[nodiscard]] inline Status check(const Frame& frame) noexcept {
+  const float(*const axes[3])[3] = {&frame.x, &frame.y, &frame.z};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k <= i; ++k) {
+      const float error = dot(*axes[i], *axes[k]) - (i == k ? 1.0f : 0.0f);
+      if (!math::is_finite(error) || !(error > -1e-3f && error < 1e-3f)) return Status::bad_frame;
+    }
+  }
+  return Status::ok;
+}
+
+namespace detail {
+
+/// Members, those who make a frame, lie strictly inside its radius and not at the key point itself: the key point and
+/// its copies move no sum, but must not be counted.
+[[nodiscard]] inline simd::Mask within(const NeighborLanes& v, Radius radius) noexcept {
+  return v.d2 < simd::all(radius.squared);
+}
+
+/// Pass 1: how far the members reach, as the squared distance of the farthest one, and how many there are.
+struct Census {
+  float farthest_d2;
+  int members;
+};
+
+template <class Neighbors>
+[[nodiscard]] inline Census take_census(const Neighbors& n, Radius radius) noexcept {
+  const simd::F32 zero = simd::all(0.0f);
+  simd::F32 farthest = zero;
+  simd::I32 members{};
+  for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
+    const NeighborLanes v = load_neighbors(n, i);
+    simd::Mask member = within(v, radius);
+    if (simd::lanes == 1 || any(zero >= v.d2)) {  // seldom: the key point, and whatever is so close that d2 is lost
+      member = member & (simd::abs(v.dx) + simd::abs(v.dy) + simd::abs(v.dz) > zero);
+    }
+    if (simd::lanes == 1 && !any(member)) continue;
+    farthest = simd::max(farthest, keep(member, v.d2));
+    members = increment(member, members);
+  }
+  return {simd::largest(farthest), sum(members)};
+}
+
+/// How members are brought to fixed point: coordinates times `unit`, a power of two (so that nothing is rounded) that
+/// makes the farthest one 1/2 to 1 long, and weights times `scale`.
+struct MemberScale {
+  float unit;
+  float scale;
+};
+
+[[nodiscard]] inline MemberScale member_scale(std::uint32_t n, float farthest_d2, Radius radius) noexcept {
+  // Below 1e-19 m squares are lost to underflow: such members count as if they were at the key point.
+  const float root = simd::root(farthest_d2);
+  const float farthest = root > 1e-19f ? root : 1e-19f;
+  const float unit = 0.5f / math::power_of_two_below(farthest);
+  // The largest w |v|^2 with w = 1 - |v| / R: at |v| = 2/3 R, or at the farthest member if that is closer.
+  const float largest_at = radius.value * 0.6667f;
+  const float place = farthest > largest_at ? largest_at : farthest;
+  float bound = (1.0f - place / radius.value) * (place * unit) * (place * unit);
+  float scale = fixed_point_scale(n);
+  for (int bits = 0; bound < 0.49f && bits < 4; ++bits, bound *= 2.0f) scale *= 2.0f;
+  return {unit, scale};
+}
+
+/// Pass 2: sum of w v v^T over the members (PCL's matrix but for its scale, which moves no eigenvector).
+template <class Neighbors>
+[[nodiscard]] inline SymmetricLanes weighted_scatter(const Neighbors& n, Radius radius, float farthest_d2) noexcept {
+  using simd::all;
+  using simd::F32;
+  const MemberScale to = member_scale(n.size, farthest_d2, radius);
+  const F32 unit = all(to.unit);
+  const F32 scale = all(to.scale);
+  const F32 inverse = all(1.0f / radius.value);
+  simd::I32 sums[6] = {};
+  for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
+    const NeighborLanes v = load_neighbors(n, i);
+    const F32 at[3] = {v.dx * unit, v.dy * unit, v.dz * unit};
+    const F32 w = keep(within(v, radius), (all(1.0f) - simd::sqrt(v.d2) * inverse) * scale);
+    each<3>([&](auto row) SHORTSHOT_INLINE_LAMBDA {
+      const F32 weighted = w * at[row];
+      each<3>([&](auto column) SHORTSHOT_INLINE_LAMBDA {
+        if (column < row) return;
+        simd::I32& entry = sums[row * (5 - row) / 2 + column];  // of the upper triangle, row by row
+        entry = entry + round_to_int(weighted * at[column]);
+      });
+    });
+  }
+  SymmetricLanes total;
+  each<6>([&](auto k) { total.entry[k] = all(static_cast<float>(sum(sums[k]))); });
+  return total;
+}
+
+/// Pass 3: for each of two axes, how many members have v . axis < 0.
+struct AxisVotes {
+  int x;
+  int z;
+};
+
+template <class Neighbors>
+[[nodiscard]] inline AxisVotes count_votes_against(const Neighbors& n, Radius radius, const float (&x)[3],
+                                                   const float (&z)[3]) noexcept {
+  using simd::all;
+  using simd::F32;
+  const F32 x_axis[3] = {all(x[0]), all(x[1]), all(x[2])};
+  const F32 z_axis[3] = {all(z[0]), all(z[1]), all(z[2])};
+  simd::I32 against_x{}, against_z{};
+  for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
+    const NeighborLanes v = load_neighbors(n, i);
+    const simd::Mask near = within(v, radius);
+    const PointLanes offset{v.dx, v.dy, v.dz};
+    against_x = increment((along(x_axis, offset) < all(0.0f)) & near, against_x);
+    against_z = increment((along(z_axis, offset) < all(0.0f)) & near, against_z);
+  }
+  return {sum(against_x), sum(against_z)};
+}
+
+/// PCL's answer to a tied vote: of the five members in the middle of the order by distance, do at least three have
+/// v . axis > 0?
+template <class Neighbors>
+[[nodiscard]] inline bool middle_votes_for(const Neighbors& n, int members, const float (&axis)[3]) noexcept {
+  const int rank = count_before(n, 1) + members / 2 - 2;  // behind the key point and its copies
+  const Place first = place_of_rank(n, rank);
+  const Place end = place_of_rank(n, rank + 5);
+  int votes = 0;
+  for (std::uint32_t i = 0; i < n.size; ++i) {
+    if (place_at(n, i) - first >= end - first) continue;
+    const Neighbor v = neighbor_at(n, i);
+    votes += dot({v.dx, v.dy, v.dz}, axis) > 0.0f ? 1 : 0;
+  }
+  return votes >= 3;
+}
+
+/// Turn an axis towards the majority of the members.
+template <class Neighbors>
+inline void orient_by_vote(const Neighbors& n, int members, int against, float (&axis)[3]) noexcept {
+  const int lead = 2 * against - members;
+  if (lead == 0 ? middle_votes_for(n, members, axis) : lead < 0) return;
+  for (float& component : axis) component = 0.0f - component;
+}
+
+/// estimate_frame() for what was checked before. `view` is the vector to the viewpoint; zeros: there is none.
+template <class Neighbors>
+[[nodiscard]] inline Status frame_of(const Neighbors& n, Radius radius, const float (&view)[3], Frame& frame) noexcept {
+  const Census census = take_census(n, radius);
+  if (census.members < min_frame_neighbors) return Status::too_few_neighbors;
+
+  const EigenLanes eigen = decompose(weighted_scatter(n, radius, census.farthest_d2));
+  // What float can tell apart, and what the rounding of the members to integers may have moved.
+  const simd::F32 resolution =
+      simd::all(1e-6f) * eigen.value(2) + simd::all(rounded(0.5f * static_cast<float>(census.members)));
+  if (!any((eigen.value(2) - eigen.value(1) > resolution) & (eigen.value(1) - eigen.value(0) > resolution))) {
+    return Status::ambiguous_frame;
+  }
+
+  for (int k = 0; k < 3; ++k) {
+    frame.x[k] = simd::largest(eigen.vector(2, k));
+    frame.z[k] = simd::largest(eigen.vector(0, k));
+  }
+  AxisVotes against = count_votes_against(n, radius, frame.x, frame.z);
+  const float towards = dot(view, frame.z);
+  if (towards != 0.0f) against.z = towards < 0.0f ? census.members : 0;  // a viewpoint that tells outvotes all members
+  orient_by_vote(n, census.members, against.x, frame.x);
+  orient_by_vote(n, census.members, against.z, frame.z);
+  frame.y[0] = rounded(frame.z[1] * frame.x[2]) - rounded(frame.z[2] * frame.x[1]);
+  frame.y[1] = rounded(frame.z[2] * frame.x[0]) - rounded(frame.z[0] * frame.x[2]);
+  frame.y[2] = rounded(frame.z[0] * frame.x[1]) - rounded(frame.z[1] * frame.x[0]);
+  return Status::ok;
+}
+
+}  // namespace detail
+
+/// SHOT's local reference frame of a gathered neighborhood: x along the largest and z along the smallest principal
+/// axis of the members, weighted by R - |v| and centered on the key point, each turned towards the majority of the
+/// members; y = z cross x. Source: PCL 1.13's SHOTLocalReferenceFrameEstimation, its rule for ties included.
+///
+/// `radius` is the frame's own; it may be smaller than the one the neighborhood was gathered with.
+/// `towards_viewpoint`, if not null, is a vector (3 floats, any length) from the key point to the camera: z is turned
+/// to it and only x by vote. Every depth camera knows it, and it makes frames more repeatable; null is SHOT.
+///
+/// Statuses: bad_radius; bad_viewpoint (not finite); too_many_neighbors (more than 2^24); too_few_neighbors (fewer than
+/// five members); ambiguous_frame (two principal axes equal within float resolution: collinear or symmetric
+/// neighborhoods). `frame` is zeroed then. On an exactly planar neighborhood all members lie at z = 0 and the sign of
+/// z is the solver's unless a viewpoint is given. No allocation, reentrant. The result does not depend on the order of
+/// the neighbors.
+template <class Neighbors>
+[[nodiscard]] inline Status estimate_frame(const Neighbors& n, Radius radius, Frame& frame,
+                                           const float* towards_viewpoint = nullptr) noexcept {
+  frame = Frame{};
+  float view[3] = {};
+  const Status usable = detail::check_estimate(n, radius, towards_viewpoint, view);
+  return usable == Status::ok ? detail::frame_of(n, radius, view, frame) : usable;
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

@@ -1,0 +1,233 @@
+// shortshot/kernel/accumulate.hpp: the kernel's second pass. A chunk of located neighbors is shared among the cells of
+// each part, and their votes are added up.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+#include "../base/simd.hpp"
+#include "../base/unroll.hpp"
+#include "../color/color_source.hpp"
+#include "../color/lab.hpp"
+#include "../config.hpp"
+#include "../descriptor/descriptor.hpp"
+#include "../descriptor/voting.hpp"
+#include "to_spherical.hpp"
+#include "vote_shares.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// Into a chunk: how far its neighbors' colors are from the key point's, 0..1.
+template <class Chunk, class Colors>
+inline void measure_colors(const Colors& source, Chunk& chunk) noexcept {
+  Collector<const Colors> colors = source;
+  const LabLanes reference = in_all_lanes(colors.reference);
+  float* const distances = chunk.rows + Chunk::color_row * std::size_t{Chunk::room};
+  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
+    simd::store(distances + i, color_distances(colors_at(colors, chunk.index + i), reference));
+  }
+}
+
+/// Is vote `k` of a neighbor, to its partner along an axis of the grid, of the same weight for all parts on the grid?
+template <class Voting>
+constexpr bool is_shared(int k) noexcept {
+  return Voting::partners_get_own_share && 1 <= k && k <= 3;
+}
+
+/// The integers that votes are added to live in the caller's output array, bit for bit, until they are normalized: no
+/// second array is needed. memcpy is how C++ says that; compilers make one add of it.
+inline void add_bits(float* value, std::int32_t weight) noexcept {
+  std::int32_t sum = 0;
+  std::memcpy(&sum, value, sizeof sum);
+  sum += weight;
+  std::memcpy(value, &sum, sizeof sum);
+}
+
+/// One vote of the only lane.
+inline void add_vote(float* values, simd::I32 index, simd::I32 weight) noexcept {
+  std::int32_t place = 0;
+  std::int32_t units = 0;
+  simd::store(&place, index);
+  simd::store(&units, weight);
+  add_bits(values + place, units);
+}
+
+/// The votes of a chunk for the part that begins at value `Offset` of the descriptor, lane-wise: `count` arrays of
+/// positions in the part, and as many of weights. Votes go through memory: taken out of registers lane by lane they
+/// would cost twice as much.
+template <class Voting, class PartType, int Offset, std::uint32_t ChunkSize>
+struct ChunkVotes {
+  using Part = PartType;
+  static constexpr int offset = Offset;
+  static constexpr int count = votes_of<Voting, Part>;
+  std::int32_t index[count * ChunkSize];
+  std::int32_t weight[count * ChunkSize];
+
+  ChunkVotes() noexcept {}  // leaves the arrays as they are
+
+  /// The votes of one register of neighbors, from `i` on. Weights that the `First` part on the grid has as well are
+  /// kept there only.
+  template <bool First, class Chunk>
+  SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, PointShares&& shares, const VoteUnit& unit) noexcept {
+    const Votes<count> votes = votes_at<Voting, Part>(chunk, i, shares, unit);
+    unroll<count>([&](auto k) {
+      simd::store(index + i + k * ChunkSize, votes.index[k]);
+      if constexpr (First || !is_shared<Voting>(k)) simd::store(weight + i + k * ChunkSize, votes.weight[k]);
+    });
+  }
+};
+
+/// The largest number of votes that a neighbor has for any of these parts.
+template <class First, class... Others>
+inline constexpr int votes_of_most = [] {
+  int most = First::count;
+  ((most = Others::count > most ? Others::count : most), ...);
+  return most;
+}();
+
+/// Vote `K` of neighbor `i` of a chunk, of the weight that `source` has.
+template <int K, std::uint32_t ChunkSize, class Votes, class Source>
+SHORTSHOT_INLINE void add_vote(float* out, const Votes& votes, const Source& source, std::uint32_t i) noexcept {
+  constexpr std::uint32_t first = K * ChunkSize;
+  if constexpr (K < Votes::count) {
+    add_bits(out + Votes::offset + votes.index[first + i], source.weight[first + i]);
+  }
+}
+
+/// All votes of neighbor `i` of a chunk, for all parts on one grid.
+template <class Voting, std::uint32_t ChunkSize, class First, class... Others>
+SHORTSHOT_INLINE void add_votes(std::uint32_t i, float* out, const First& first, const Others&... others) noexcept {
+  unroll<votes_of_most<First, Others...>>([&](auto k) {
+    add_vote<k, ChunkSize>(out, first, first, i);
+    if constexpr (is_shared<Voting>(k)) {
+      (add_vote<k, ChunkSize>(out, others, first, i), ...);
+    } else {
+      (add_vote<k, ChunkSize>(out, others, others, i), ...);
+    }
+  });
+}
+
+/// The votes of a chunk for all parts on one grid. Neighbors from its four stretches are taken in turn.
+template <class Voting, std::uint32_t ChunkSize, class... Votes>
+inline void scatter(std::uint32_t size, float* out, const Votes&... votes) noexcept {
+  constexpr std::uint32_t quarter = ChunkSize / 4;  // a stretch of a full chunk; any other split would do
+  static_assert(stretches_of_full_chunk == 4, "what is written out below");
+  std::uint32_t i = 0;
+  if (size >= 3 * quarter) {
+    for (; i < size - 3 * quarter; ++i) {
+      unroll<4>([&](auto k) { add_votes<Voting, ChunkSize>(i + k * quarter, out, votes...); });
+    }
+  }
+  for (; i < quarter; ++i) {
+    for (std::uint32_t k = i; k < size; k += quarter) add_votes<Voting, ChunkSize>(k, out, votes...);
+  }
+}
+
+/// The greatest common divisor.
+constexpr int common_divisor(int a, int b) noexcept { return b == 0 ? a : common_divisor(b, a % b); }
+
+/// One chunk into parts that have one grid: points are shared among its cells once for all of them. (`unit` is a copy,
+/// which no store can change.)
+template <class Voting, class Chunk, class First, class... Others>
+inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& first, Others&&... others) noexcept {
+  using Part = typename std::decay_t<First>::Part;
+  constexpr int values = [] {
+    int divisor = Part::values;
+    ((divisor = common_divisor(divisor, std::decay_t<Others>::Part::values)), ...);
+    return divisor;
+  }();
+  const std::uint32_t size = chunk.size;
+  for (std::uint32_t i = 0; i < size; i += simd::lanes) {
+    const Coordinates at = coordinates_at(chunk, i);
+    if constexpr (sizeof...(Others) == 0) {
+      first.template cast<true>(chunk, i, grid_shares<Voting, Part, values>(at, unit), unit);
+    } else {
+      const PointShares shares = grid_shares<Voting, Part, values>(at, unit);
+      first.template cast<true>(chunk, i, widened<Part::values / values>(shares), unit);
+      (others.template cast<false>(chunk, i, widened<std::decay_t<Others>::Part::values / values>(shares), unit), ...);
+    }
+  }
+  scatter<Voting, Chunk::room>(size, out, first, others...);
+}
+
+/// The votes of neighbor `i` of a chunk for one part, added at once: there is one lane only.
+template <class Voting, class Part, class Chunk>
+SHORTSHOT_INLINE void add_point(const Chunk& chunk, std::uint32_t i, const Coordinates& at, const VoteUnit& unit,
+                                float* values) noexcept {
+  constexpr int count = votes_of<Voting, Part>;
+  PointShares shares = grid_shares<Voting, Part, Part::values>(at, unit);
+  const Votes<count> votes = votes_at<Voting, Part>(chunk, i, shares, unit);
+  each<count>([&](auto k) SHORTSHOT_INLINE_LAMBDA { add_vote(values, votes.index[k], votes.weight[k]); });
+}
+
+/// All parts in one loop: what they have in common is worked out once.
+template <class Voting, class... Parts, std::size_t... I, class Chunk>
+[[gnu::noinline]] inline void add_points(Descriptor<Voting, Parts...>, std::index_sequence<I...>, const Chunk& chunk,
+                                         const VoteUnit& unit, float* out) noexcept {
+  using D = Descriptor<Voting, Parts...>;
+  const std::uint32_t size = chunk.size;
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const Coordinates at = coordinates_at(chunk, i);
+    (add_point<Voting, Parts>(chunk, i, at, unit, out + D::offset(I)), ...);
+  }
+}
+
+/// The same of one part where code shall be small: this function for all parts with these rules. `signal` is the row of
+/// the part's signal, or 0 if it has no histogram.
+template <class Voting, class Cells, class Scale, class Chunk>
+[[gnu::noinline]] inline void add_points_of_part(const Chunk& chunk, const Axis (&axes)[4], int signal,
+                                                 const VoteUnit& unit, float* values) noexcept {
+  for (std::uint32_t i = 0; i < chunk.size; ++i) {
+    Share shares[4];
+    // Without a histogram all of a fourth axis' share is its partner's, which does not exist.
+    shares[3] = {simd::all_int(0), simd::all_int(0), simd::all_int(2 * unit.one)};
+    for (int k = 0; k < (signal == 0 ? 3 : 4); ++k) {
+      const simd::F32 coordinate = simd::load(chunk.row(k == 3 ? signal : k, i));
+      shares[k] = share_along_axis<Voting, Cells, Scale>(axes[k], k, coordinate, unit);
+    }
+    const auto votes = Voting::template combine<4>(axes, shares, unit);
+    for (int k = 0; k < Voting::template votes<4>; ++k) add_vote(values, votes.index[k], votes.weight[k]);
+  }
+}
+
+template <class Voting, class... Parts, std::size_t... I, class Chunk>
+inline void accumulate_all(Descriptor<Voting, Parts...> descriptor, std::index_sequence<I...> parts, const Chunk& chunk,
+                           const VoteUnit& unit, float* out) noexcept {
+  using D = Descriptor<Voting, Parts...>;
+  if constexpr (simd::lanes == 1 && small_code) {
+    (add_points_of_part<Voting, typename Parts::Cells, typename Parts::Scale>(
+         chunk, Parts::template axes<Parts::values>, Parts::has_histogram ? signal_row<Parts, Chunk> : 0, unit,
+         out + D::offset(I)),
+     ...);
+  } else if constexpr (simd::lanes == 1) {
+    add_points(descriptor, parts, chunk, unit, out);
+  } else if constexpr (HaveOneGrid<Parts...>::value) {
+    accumulate<Voting>(chunk, unit, out, ChunkVotes<Voting, Parts, D::offset(I), Chunk::room>()...);
+  } else {
+    const auto accumulate_part = [&](auto part, float* values) {
+      using Part = decltype(part);
+      accumulate<Voting>(chunk, unit, values, ChunkVotes<Voting, Part, 0, Chunk::room>());
+    };
+    (accumulate_part(Parts{}, out + D::offset(I)), ...);
+  }
+}
+
+/// Bytes of a chunk and its votes, those of parts on one grid at the same time.
+template <std::uint32_t ChunkSize, class Voting, class... Parts>
+constexpr std::size_t scratch_bytes(Descriptor<Voting, Parts...>) noexcept {
+  using D = Descriptor<Voting, Parts...>;
+  constexpr std::size_t votes[] = {sizeof(ChunkVotes<Voting, Parts, 0, ChunkSize>)...};
+  std::size_t most = 0;
+  for (const std::size_t bytes : votes)
+    most = HaveOneGrid<Parts...>::value ? most + bytes : most < bytes ? bytes : most;
+  return sizeof(Chunk<D::needs_normals, D::needs_colors, ChunkSize>) + (simd::lanes == 1 ? 0 : most);
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

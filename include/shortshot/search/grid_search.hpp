@@ -1,0 +1,70 @@
+// shortshot/search/grid_search.hpp: the fixed-radius grid with memory of its own. Hosted only: build allocates.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "../cloud/cloud.hpp"
+#include "../config.hpp"
+#include "../status.hpp"
+#include "cell_index.hpp"
+#include "neighborhood.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// A fixed-radius grid that owns its memory: 16 bytes a valid point and 4 a cell, with as many cells as the cloud's box
+/// holds, but at most four a point (and 4,096). A search (see brute.hpp); the cloud must outlive it. build() again for
+/// the next frame: its memory is reused. Queries are thread-safe.
+class GridSearch {
+ public:
+  GridSearch() = default;
+
+  /// Sorts the cloud into cells of `radius`, or of half of it where points are dense. If that fails status() says why,
+  /// and so do extract() and describe_at().
+  GridSearch(const CloudView& cloud, float radius) { static_cast<void>(build(cloud, radius)); }
+
+  /// See GridIndex::build(); may throw std::bad_alloc.
+  [[nodiscard]] Status build(const CloudView& cloud, float radius) {
+    const std::size_t points = check(cloud) == Status::ok ? cloud.size : 0;  // a bad view says anything of its size
+    const std::size_t cells = 4 * points + 4096;
+    if (cell_end_.size() < planning_cells) cell_end_.resize(planning_cells);
+    grid_ = {};  // and so it stays if there is no memory
+    detail::Grid<std::uint32_t> next{};
+    if (next.plan(cloud, radius, {nullptr, cell_end_.data(), nullptr, points, cells}) != Status::ok) {
+      grid_ = next;
+      return next.status();
+    }
+    // Points lie on surfaces, which pass through few cells of their box: 8 points a cell of the box mean hundreds in
+    // those that are not empty, and then smaller cells, fewer of whose points lie outside the sphere, pay.
+    if (8 * next.cells() <= next.size()) next.halve_cells();
+    if (order_.size() < next.size()) {
+      order_.resize(next.size());
+      xyz_.resize(3 * next.size());
+    }
+    if (cell_end_.size() < next.cells()) cell_end_.resize(next.cells());
+    next.sort({order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cell_end_.size()});
+    grid_ = next;
+    return Status::ok;
+  }
+
+  [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
+
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
+    return grid_.gather({order_.data(), cell_end_.data(), xyz_.data()}, center, radius, out);
+  }
+
+ private:
+  static constexpr std::size_t planning_cells = 64;
+
+  detail::Grid<std::uint32_t> grid_{};
+  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> cell_end_;
+  std::vector<float> xyz_;
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot

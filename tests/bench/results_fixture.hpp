@@ -1,0 +1,107 @@
+// A project's measurements and documents in miniature; all figures are made up.
+#pragma once
+
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "cloud_file_samples.hpp"
+
+namespace results_fixture {
+
+/// One comparison, as ./run peers writes them.
+inline std::string comparison(const std::string& descriptor, const std::string& peer, const std::string& build,
+                              double ratio) {
+  const double us = 360.0 / ratio;
+  std::ostringstream row;
+  row << R"({"cloud": "desk.pcd", "points": 170000, "keypoints": 1000, "radius": 0.04, "mean_neighbors": 831.2,)"
+      << R"( "descriptor": ")" << descriptor << R"(", "build": ")" << build << R"(", "search": "grid", "peer": ")"
+      << peer << R"(", "us_per_keypoint": )" << us << R"(, "peer_us_per_keypoint": 360, "ratio_per_keypoint": )"
+      << ratio << R"(, "ratio_frame": )" << 1.5 * ratio << R"(, "peak_bytes": 5200000, "peer_peak_bytes": 31400})";
+  return row.str();
+}
+
+inline std::string peers() {
+  std::string list;
+  double ratio = 5.0;
+  for (const auto& [descriptor, peer] : {std::pair{"SCSH-336", "PCL SHOTColor"}, std::pair{"SCSH-336", "naive double"},
+                                         std::pair{"SSH-32", "PCL SHOT"}, std::pair{"SSH-32", "naive double"},
+                                         std::pair{"SHOT-352", "PCL SHOT"}, std::pair{"CSHOT-1344", "PCL SHOTColor"}}) {
+    for (const char* build : {"O2", "avx2"})
+      list += (list.empty() ? "[" : ", ") + comparison(descriptor, peer, build, ratio *= 2.0);
+  }
+  return list + "]";
+}
+
+/// What ./run firmware --record writes, of two configurations on one core.
+inline std::string firmware() {
+  std::string figures;
+  for (const char* configuration : {"Ssh96", "Scsh336"}) {
+    for (const char* workspace : {"full", "compact"}) {
+      for (const char* level : {"Os", "O2"}) {
+        figures += (figures.empty() ? "" : ", ") + std::string(R"({"target": "m7", "level": ")") + level +
+                   R"(", "configuration": ")" + configuration + R"(", "workspace": ")" + workspace +
+                   R"(", "flash_brute": 5100.0, "flash_grid": 6200.0, "static_bytes": 0.0, "stack_outside_chunk": 444.0,
+                   "chunk_bytes": 324.0, "workspace_bytes_per_neighbor": 20.0, "work_per_neighbor": 555.4,
+                   "work_fixed": 3210.0})";
+      }
+    }
+  }
+  return R"({"figures": [)" + figures +
+         R"(], "hashes": [{"target": "m7", "level": "O2", "configuration": "Ssh96", "hash": "0badcafe"}],
+         "budgets": [{"promise": "less", "goal": 475, "at_most": 560, "measured": 555.4, "where": "Scsh336 on m7"}]})";
+}
+
+/// A folder of its own with all files that the results are made of; it goes with the object.
+class Project {
+ public:
+  Project() {
+    write(
+        "README.md",
+        "before\n<!-- generated: headline -->\nold\n<!-- end -->\nafter\n<!-- generated: firmware -->\n<!-- end -->\n");
+    write("bench/firmware/README.md", "# Page\n<!-- generated: firmware -->\n<!-- end -->\n");
+    write("bench/results/firmware.json", firmware());
+    std::string report = "# Report\n";
+    for (const char* name : {"machine", "goals", "peers", "micro", "instructions", "scaling"}) {
+      report += std::string("<!-- generated: ") + name + " -->\n<!-- end -->\n";
+    }
+    write("bench/RESULTS.md", report);
+    write("bench/results/machine.json",
+          R"({"cpu": "Imaginary 1", "cores": 2, "system": "Debian", "compiler": "GCC 12", "flags": "-O2"})");
+    write("bench/results/peers.json", peers());
+    write("bench/results/goals.json", R"([
+      {"goal": "faster", "build": "O2", "bound": ">= 25", "measured": {"desk.pcd": 26.04}, "worst": 26.04,
+       "worst_cloud": "desk.pcd", "met": true},
+      {"goal": "exact", "build": "avx2", "bound": "<= 1e-06", "worst": 3.2e-6, "worst_cloud": "desk.pcd", "met": false},
+      {"goal": "instructions", "build": "avx2", "bound": "report"}])");
+    write("bench/results/micro.json", R"({"benchmarks": [
+      {"name": "kernel_mean", "run_name": "kernel", "aggregate_name": "mean", "cpu_time": 99, "time_unit": "us"},
+      {"name": "kernel_median", "run_name": "kernel", "aggregate_name": "median", "cpu_time": 8.25, "time_unit": "us",
+       "family_index": 4, "ns/neighbor": 6.5},
+      {"name": "index_median", "run_name": "index", "aggregate_name": "median", "cpu_time": 1234, "time_unit": "us",
+       "bytes": 4096}]})");
+    write("bench/speed/instructions/expected.json", R"({"compiler": "GCC 12", "flags": "-O2", "workload": "tabletop",
+      "instructions_per_neighbor": {"kernel Ssh32 sse2": 60.25, "frame sse2": 40}})");
+    write("bench/results/scaling.json", R"([
+      {"curve": "threads", "x": 1, "x_name": "threads", "series": "extract", "value": 80.5, "unit": "ms",
+       "extra_bytes": 2000000, "repetitions": 3},
+      {"curve": "threads", "x": 2, "x_name": "threads", "series": "extract", "value": 41.25, "unit": "ms",
+       "extra_bytes": 2500000, "repetitions": 3},
+      {"curve": "threads", "x": 2, "x_name": "threads", "series": "index", "value": 1.5, "unit": "ms",
+       "extra_bytes": 3500000, "repetitions": 3}])");
+  }
+
+  std::string root() const { return directory_.file("project"); }
+  std::string path(const std::string& name) const { return root() + "/" + name; }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories(std::filesystem::path(path(name)).parent_path());
+    cloud_file_test::write_bytes(path(name), text);
+  }
+
+ private:
+  cloud_file_test::TemporaryDirectory directory_;
+};
+
+}  // namespace results_fixture

@@ -1,0 +1,180 @@
+// The generator of the documents' tables: what it makes of measurements, and what it refuses.
+
+#include <doctest/doctest.h>
+
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include "results/writer/machine.hpp"
+#include "results/writer/markdown.hpp"
+#include "results/writer/project.hpp"
+#include "results_fixture.hpp"
+
+namespace {
+
+using namespace shortshot_bench::results;
+using results_fixture::Project;
+
+bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// What is said about a project in which one file holds something else.
+std::string refusal_of(const std::string& file, const std::string& text) {
+  const Project project;
+  project.write(file, text);
+  try {
+    generate(project.root());
+  } catch (const std::exception& error) {
+    const std::string what = error.what();
+    const std::string start = project.path(file) + ": ";
+    return what.compare(0, start.size(), start) == 0 ? what.substr(start.size()) : "without the name: " + what;
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("numbers keep their significant digits") {
+  CHECK(digits(0.0) == "0");
+  CHECK(digits(0.30189) == "0.302");
+  CHECK(digits(8.0) == "8.00");
+  CHECK(digits(14.149) == "14.1");
+  CHECK(digits(170909.0) == "170909");
+  CHECK(digits(3.2e-7) == "3.20e-07");
+  CHECK(whole(831.6) == "832");
+  CHECK(times(4.96) == "5.0x");
+  CHECK(times(24.6) == "25x");
+  CHECK(megabytes(0.0) == "0");
+  CHECK(megabytes(31400.0) == "31.4 KB");
+  CHECK(megabytes(5.25e6) == "5.2 MB");
+}
+
+TEST_CASE("a table has as many cells in each row as in its header") {
+  Table table({"a", "b", "c"});
+  table.add({"1", "2"});
+  CHECK(table.markdown() == "| a | b | c |\n|---|---:|---:|\n| 1 | 2 | |\n");
+}
+
+TEST_CASE("only the block is replaced, and there must be exactly one") {
+  const std::string text = "x\n<!-- generated: a -->\nold\n<!-- end -->\ny\n<!-- generated: b -->\n<!-- end -->\n";
+  CHECK(with_block(text, "a", "new\n", "F") ==
+        "x\n<!-- generated: a -->\nnew\n<!-- end -->\ny\n<!-- generated: b -->\n<!-- end -->\n");
+  CHECK(with_block(with_block(text, "a", "new\n", "F"), "a", "new\n", "F") == with_block(text, "a", "new\n", "F"));
+  CHECK_THROWS_WITH(with_block(text, "c", "", "F"), "F: there is no line '<!-- generated: c -->'");
+  CHECK_THROWS_WITH(with_block(text + text, "a", "", "F"), "F: the block 'a' is there twice");
+  CHECK_THROWS_WITH(with_block("<!-- generated: a -->\n", "a", "", "F"), "F: the block 'a' has no line '<!-- end -->'");
+  CHECK_THROWS_WITH(with_block("<!-- generated: a -->\n<!-- generated: b -->\n<!-- end -->", "a", "", "F"),
+                    "F: the block 'a' has no line '<!-- end -->'");
+}
+
+TEST_CASE("the README's headline: both builds next to each other, and where the figures are from") {
+  const Project project;
+  const Document readme = generate(project.root()).at(0);
+  CHECK(readme.path == project.path("README.md"));
+  CHECK(has(readme.committed, "old"));
+  CHECK_FALSE(has(readme.generated, "old"));
+  CHECK(readme.generated.compare(0, 7, "before\n") == 0);
+  CHECK(has(readme.generated, "<!-- end -->\nafter\n"));
+  CHECK(has(readme.generated,
+            "| SCSH-336 against PCL SHOTColor | 36.0 / 18.0 | 360 | 10x / 20x | 15x / 30x | 5.2 MB, 31.4 KB |\n"));
+  CHECK(has(readme.generated, "| SSH-32 against naive double |"));
+  CHECK(has(readme.generated, "| CSHOT-1344 against PCL SHOTColor |"));
+  CHECK(has(readme.generated, "desk.pcd: 170000 points, 1000 key points, R = 0.04 m, 831 neighbors"));
+  CHECK(has(readme.generated, "Imaginary 1, GCC 12"));
+}
+
+TEST_CASE("the report shows every file") {
+  const Project project;
+  const std::string report = generate(project.root()).at(1).generated;
+  CHECK(has(report, "Imaginary 1, 2 cores; Debian; GCC 12, `-O2`."));
+  CHECK(has(report, "| faster | O2 | >= 25 | 26.0 | desk.pcd | yes |\n"));
+  CHECK(has(report, "| exact | avx2 | <= 1e-06 | 3.20e-06 | desk.pcd | **no** |\n"));
+  CHECK(has(report, "| instructions | avx2 | report | not measured | | |\n"));
+  CHECK(
+      has(report, "| SSH-32 | PCL SHOT | grid | 2.25 / 1.12 | 360 | 160x / 320x | 240x / 480x | 5.2 MB, 31.4 KB |\n"));
+  CHECK(has(report, "| stage | CPU time | | ns/neighbor | bytes |\n"));
+  CHECK(has(report, "| kernel | 8.25 | us | 6.50 | |\n| index | 1234 | us | | 4096 |\n"));
+  CHECK_FALSE(has(report, "mean"));
+  CHECK(has(report, "| kernel Ssh32 sse2 | 60.2 |\n| frame sse2 | 40.0 |\n"));
+  CHECK(has(report, "![cost and extra memory against threads](results/scaling_threads.svg)"));
+  CHECK(has(report, "| threads | extract, ms | index, ms | extra memory |\n|---|---:|---:|---:|\n"));
+  CHECK(has(report, "| 1 | 80.5 | | 2.0 MB |\n| 2 | 41.2 | 1.50 | 3.5 MB |\n"));
+}
+
+TEST_CASE("what was generated is what is generated again") {
+  const Project project;
+  for (const Document& document : generate(project.root())) {
+    CHECK(document.committed != document.generated);
+    project.write(document.path.substr(project.root().size() + 1), document.generated);
+  }
+  for (const Document& document : generate(project.root())) CHECK(document.committed == document.generated);
+  project.write("bench/results/machine.json",
+                R"({"cpu": "Other", "cores": 2, "system": "Debian", "compiler": "GCC 12", "flags": "-O2"})");
+  const std::vector<Document> documents = generate(project.root());
+  CHECK(documents.at(0).committed != documents.at(0).generated);
+  CHECK(documents.at(1).committed != documents.at(1).generated);
+  CHECK(documents.at(2).committed == documents.at(2).generated);  // knows nothing of the machine
+}
+
+TEST_CASE("firmware: the README's rows, and the page's tables") {
+  const Project project;
+  const std::vector<Document> documents = generate(project.root());
+  CHECK(has(documents.at(0).generated,
+            "| Scsh336 | 5100 B | 0 | 20 B, compact 20 B | 444 B + 324 B | 555 a neighbor + 3210 |\n"));
+  const std::string& page = documents.at(2).generated;
+  CHECK(has(page, "| less (goal missed) | 475 | 560 | 555 | Scsh336 on m7 |\n"));
+  CHECK(has(page, "| m7 -O2, compact | 5100 | 1100 | | | 444 | 324 | 555 | | 3210 | | |\n"));
+  CHECK(has(page, "Hash of the bits: 0badcafe"));
+  const std::string file = "bench/results/firmware.json";
+  CHECK(has(refusal_of(file, "{}"), "'figures' not found"));
+  CHECK(has(refusal_of(file, R"({"figures": [], "hashes": [], "budgets": []})"), "no figures of Ssh96 on m7 -Os"));
+}
+
+TEST_CASE("a missing or malformed file is named, and what is wrong with it") {
+  for (const char* file :
+       {"README.md", "bench/RESULTS.md", "bench/results/machine.json", "bench/results/peers.json",
+        "bench/results/goals.json", "bench/results/micro.json", "bench/speed/instructions/expected.json",
+        "bench/results/scaling.json", "bench/results/firmware.json", "bench/firmware/README.md"}) {
+    CAPTURE(file);
+    const Project project;
+    std::filesystem::remove(project.path(file));
+    try {
+      generate(project.root());
+      FAIL("accepted");
+    } catch (const std::exception& error) {
+      CHECK(has(error.what(), project.path(file) + ": cannot "));
+    }
+    CHECK(
+        has(refusal_of(file, "[{"), std::string(file).find(".json") == std::string::npos ? "no line" : "parse error"));
+  }
+  const std::string peers = "bench/results/peers.json";
+  CHECK(refusal_of(peers, "[]") == "expected a list of one or more objects");
+  CHECK(refusal_of(peers, "[" + results_fixture::comparison("SSH-32", "PCL SHOT", "O2", 2.0) + "]") ==
+        "no comparison of SCSH-336 by grid with PCL SHOTColor on desk.pcd for O2");
+  std::string other_build = results_fixture::peers();
+  other_build.insert(1, results_fixture::comparison("SSH-32", "PCL FPFH", "O9", 2.0) + ", ");
+  CHECK(refusal_of(peers, other_build) == "entry 1: 'build' must be \"O2\" or \"avx2\", not \"O9\"");
+  std::string no_number = results_fixture::peers();
+  no_number.replace(no_number.find("5200000"), 7, "\"5 MB\"");
+  CHECK(refusal_of(peers, no_number) == "entry 1: 'peak_bytes' must be a number, not \"5 MB\"");
+  CHECK(refusal_of("bench/results/goals.json", R"([{"goal": "a", "build": "O2"}])") == "entry 1: 'bound' is missing");
+  CHECK(has(refusal_of("bench/results/micro.json", "{}"), "'benchmarks' is missing"));
+  CHECK(refusal_of("bench/results/micro.json",
+                   R"({"benchmarks": [{"name": "a", "error_occurred": true, "error_message": "bad"}]})") ==
+        "entry 1: a: bad");
+  CHECK(has(refusal_of("bench/speed/instructions/expected.json", "{}"), "'instructions_per_neighbor' is missing"));
+}
+
+TEST_CASE("this machine is written down and read back") {
+  const Project project;
+  const Machine here = this_machine();
+  CHECK_FALSE(here.cpu.empty());
+  CHECK_FALSE(here.flags.empty());
+  write_machine(machine_path(project.root()), here);
+  const Machine read = read_machine(machine_path(project.root()));
+  CHECK(read.cpu == here.cpu);
+  CHECK(read.cores == here.cores);
+  CHECK(read.system == here.system);
+  CHECK(read.compiler == here.compiler);
+  CHECK(read.flags == here.flags);
+}

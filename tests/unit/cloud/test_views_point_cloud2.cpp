@@ -1,0 +1,209 @@
+// Views of PointCloud2-shaped messages: fields at any offset of any step, and everything that cannot be read refused.
+#include <doctest/doctest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "fixtures.hpp"
+
+namespace {
+
+using namespace unit;
+using ss::Status;
+
+constexpr std::uint8_t type_uint8 = 2, type_uint32 = 6, type_float32 = 7, type_float64 = 8;
+
+struct Field {
+  std::string name;
+  std::uint32_t offset;
+  std::uint8_t datatype;
+  std::uint32_t count;
+};
+
+struct Message {
+  std::uint32_t height = 1;
+  std::uint32_t width = 0;
+  std::vector<Field> fields;
+  bool is_bigendian = false;
+  std::uint32_t point_step = 0;
+  std::uint32_t row_step = 0;
+  std::vector<std::uint8_t> data;
+};
+
+constexpr std::uint32_t count = 60;
+
+TestCloud sample() { return curved_surface(1, count); }
+
+/// The sample with its fields at odd places: most floats are not aligned.
+Message message(const std::string& color = "rgb", std::uint8_t color_type = type_float32) {
+  const TestCloud cloud = sample();
+  Message m;
+  m.width = count;
+  m.point_step = 23;
+  m.row_step = m.width * m.point_step;
+  m.fields = {{"intensity", 0, type_uint8, 1},
+              {"y", 1, type_float32, 1},
+              {"x", 7, type_float32, 1},
+              {color, 12, color_type, 1},
+              {"z", 19, type_float32, 1}};
+  m.data.assign(m.row_step, 0xEE);
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint8_t* at = m.data.data() + i * m.point_step;
+    const ss::Point p = cloud.at(i);
+    const ss::Rgb c = cloud.color_at(i);
+    const std::uint32_t packed = 0xFF000000u | std::uint32_t{c.r} << 16 | std::uint32_t{c.g} << 8 | c.b;
+    std::memcpy(at + 1, &p.y, 4);
+    std::memcpy(at + 7, &p.x, 4);
+    std::memcpy(at + 12, &packed, 4);
+    std::memcpy(at + 19, &p.z, 4);
+  }
+  return m;
+}
+
+Status view_of(const Message& m) {
+  ss::CloudView view = sample().view();  // something that must not survive a refusal
+  const Status status = ss::view_point_cloud2(m, view);
+  if (status != Status::ok) CHECK(view.points.x == nullptr);
+  if (status != Status::ok) CHECK(view.size == 0);
+  return status;
+}
+
+void check_reads_as_sample(const Message& m, bool colors = true) {
+  const TestCloud cloud = sample();
+  ss::CloudView view{};
+  REQUIRE(ss::view_point_cloud2(m, view) == Status::ok);
+  REQUIRE(view.size == cloud.size());
+  REQUIRE(ss::has_colors(view) == colors);
+  CHECK(view.width == m.width);
+  CHECK(view.height == m.height);
+  CHECK(view.points.x == m.data.data() + 7);  // nothing is copied
+  require_same_points(view, cloud, colors);
+  std::vector<float> out = garbage<ss::Ssh32>(), expected = garbage<ss::Ssh32>();
+  static ss::Workspace<count> workspace;
+  REQUIRE(ss::describe_at<ss::Ssh32>(view, ss::BruteSearch{view}, 3, 1.0f, workspace, out.data()) == Status::ok);
+  REQUIRE(ss::describe_at<ss::Ssh32>(cloud.view(), ss::BruteSearch{cloud.view()}, 3, 1.0f, workspace,
+                                     expected.data()) == Status::ok);
+  CHECK(same_bits(out, expected));
+}
+
+}  // namespace
+
+TEST_CASE("PointCloud2: unaligned fields in any order, colors packed into a float or an integer") {
+  check_reads_as_sample(message());
+  check_reads_as_sample(message("rgba", type_uint32));
+  check_reads_as_sample(message("rgb", type_uint32));
+}
+
+TEST_CASE("PointCloud2: an image keeps its width and height") {
+  Message image = message();
+  image.width = 12;
+  image.height = 5;
+  image.row_step = image.width * image.point_step;
+  check_reads_as_sample(image);
+}
+
+TEST_CASE("PointCloud2: a cloud without colors, or with colors of another type, has points only") {
+  check_reads_as_sample(message("temperature"), false);
+  check_reads_as_sample(message("rgb", type_float64), false);
+}
+
+TEST_CASE("PointCloud2: coordinates of another type, missing ones and fields outside the point are refused") {
+  for (const std::size_t field : {1u, 2u, 4u}) {
+    Message m = message();
+    m.fields[field].datatype = type_float64;
+    CHECK(view_of(m) == Status::bad_view);
+    m = message();
+    m.fields[field].name = "w";
+    CHECK(view_of(m) == Status::bad_view);
+    for (const std::uint32_t offset : {20u, 23u, 0xFFFFFFFCu, 0xFFFFFFFFu}) {
+      m = message();
+      m.fields[field].offset = offset;
+      CHECK(view_of(m) == Status::bad_view);
+    }
+  }
+  CHECK(view_of(Message{}) == Status::bad_view);
+}
+
+TEST_CASE("PointCloud2: colors outside the point are not read") {
+  Message m = message();
+  m.fields[3].offset = 21;
+  check_reads_as_sample(m, false);
+}
+
+TEST_CASE("PointCloud2: normals are three fields of their own, or none") {
+  Message m = message();
+  m.fields.insert(
+      m.fields.end(),
+      {{"normal_x", 1, type_float32, 1}, {"normal_z", 7, type_float32, 1}, {"normal_y", 19, type_float32, 1}});
+  ss::CloudView view{};
+  REQUIRE(ss::view_point_cloud2(m, view) == Status::ok);
+  REQUIRE(ss::has_normals(view));
+  for (std::size_t i = 0; i < count; ++i) {
+    const ss::Point n = ss::read(view.normals, i);
+    const ss::Point p = sample().at(i);
+    REQUIRE((n.x == p.y && n.y == p.z && n.z == p.x));
+  }
+  check_reads_as_sample(m);
+  for (const std::size_t field : {5u, 6u, 7u}) {
+    for (const Field& broken : {Field{"normal", 1, type_float32, 1}, Field{m.fields[field].name, 1, type_float64, 1},
+                                Field{m.fields[field].name, 20, type_float32, 1}}) {
+      Message other = m;
+      other.fields[field] = broken;
+      REQUIRE(ss::view_point_cloud2(other, view) == Status::ok);
+      CHECK_FALSE(ss::has_normals(view));
+    }
+  }
+}
+
+TEST_CASE("PointCloud2: a step of zero and steps shorter than the fields are refused") {
+  for (const std::uint32_t step : {0u, 3u, 22u}) {
+    Message m = message();
+    m.point_step = step;
+    m.row_step = step * m.width;
+    CHECK(view_of(m) == Status::bad_view);
+  }
+}
+
+TEST_CASE("PointCloud2: data one byte short, or sizes whose product overflows, are refused") {
+  Message m = message();
+  m.data.pop_back();
+  CHECK(view_of(m) == Status::bad_view);
+  m.data.clear();
+  CHECK(view_of(m) == Status::bad_view);
+  m = message();
+  m.width = 0xFFFFFFFFu;
+  CHECK(view_of(m) == Status::bad_view);
+  m.height = 0xFFFFFFFFu;
+  CHECK(view_of(m) == Status::bad_view);
+}
+
+TEST_CASE("PointCloud2: padded rows are refused, padding after the only row is not") {
+  Message image = message();
+  image.width = 12;
+  image.height = 5;
+  image.row_step = image.width * image.point_step + 1;
+  image.data.resize(image.data.size() + 5);
+  CHECK(view_of(image) == Status::bad_view);
+  Message row = message();
+  row.row_step += 1;
+  row.data.push_back(0);
+  check_reads_as_sample(row);
+}
+
+TEST_CASE("PointCloud2: the other byte order is refused") {
+  Message m = message();
+  m.is_bigendian = true;  // (on a big-endian machine this whole file's messages would have to be)
+  CHECK(view_of(m) == Status::bad_view);
+}
+
+TEST_CASE("PointCloud2: no points are an empty cloud") {
+  Message m = message();
+  m.width = 0;
+  CHECK(view_of(m) == Status::empty_cloud);
+  m = message();
+  m.height = 0;
+  CHECK(view_of(m) == Status::empty_cloud);
+}
