@@ -97,8 +97,8 @@ function(emit_file file)
 endfunction()
 
 file(READ "${include_dir}/version.hpp" version_header)
-string(REGEX MATCHALL "= [0-9]+" version "${version_header}")
-string(REGEX REPLACE "= " "" version "${version}")
+string(REGEX MATCHALL "SHORTSHOT_VERSION_[A-Z]+ [0-9]+" version "${version_header}")
+string(REGEX REPLACE "SHORTSHOT_VERSION_[A-Z]+ " "" version "${version}")
 string(REPLACE ";" "." version "${version}")
 
 emit_file("${include_dir}/shortshot.hpp")

@@ -113,10 +113,10 @@ Matching match(const Described& source, const Described& target, const MatchingS
   Matching matching;
   matching.keypoints = source.keypoints.size();
   count_nearest(source, target, truth, matching);
-  std::vector<shortshot::Correspondence> correspondences;
+  std::vector<shortshot::MatchedPair> correspondences;
   require(shortshot::reciprocal_correspondences(source.rows().descriptors, target.rows().descriptors, correspondences));
   std::vector<shortshot::PointPair> pairs;
-  for (const shortshot::Correspondence& c : correspondences) {
+  for (const shortshot::MatchedPair& c : correspondences) {
     pairs.push_back({source.keypoints[c.source].position, target.keypoints[c.target].position});
     if (truth.is_correct(c.source, c.target)) ++matching.correct;
   }

@@ -37,7 +37,7 @@ std::vector<Fold> folds_of(const RecognitionTask& task) {
 ObjectLabel hough_label(const shortshot::Recognizer& recognizer, const Described& described,
                         const std::string& layout) {
   std::vector<shortshot::Hypothesis> hypotheses;
-  require(recognizer.recognize(described.rows(), layout, hypotheses));
+  require(shortshot::recognize(recognizer, described.rows(), layout, hypotheses));
   if (hypotheses.empty()) return {};
   const shortshot::Hypothesis& best = hypotheses.front();
   return {recognizer.class_name(best.object_class), recognizer.instance_name(best.instance)};
@@ -49,7 +49,7 @@ ObjectLabel nearest_label(const shortshot::Recognizer& recognizer, const Describ
     return static_cast<std::size_t>(std::max_element(shares.begin(), shares.end()) - shares.begin());
   };
   shortshot::ActivationShares shares;
-  require(recognizer.activation_shares(described.rows().descriptors, layout, shares));
+  require(shortshot::activation_shares(recognizer, described.rows().descriptors, layout, shares));
   const std::size_t object_class = largest(shares.classes);
   if (!(shares.classes[object_class] > 0.0f)) return {};
   return {recognizer.class_name(object_class), recognizer.instance_name(largest(shares.instances))};
@@ -123,7 +123,8 @@ std::vector<Prediction> recognize_views(const RecognitionTask& task, const Views
     shortshot::Recognizer recognizer(options);
     for (const std::size_t i : fold.training) {
       const ObjectLabel& label = task.views[i].label;
-      require(recognizer.train(described[i].rows(), layout, views[i].center(), label.object_class, label.instance));
+      require(shortshot::train(recognizer, described[i].rows(), layout, views[i].center(), label.object_class,
+                               label.instance));
     }
     for (const std::size_t i : fold.test) {
       predictions.push_back({i, hough_label(recognizer, described[i], layout), {}});

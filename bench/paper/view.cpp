@@ -41,7 +41,8 @@ shortshot::Point center_of(const shortshot::CloudView& cloud) {
   for (std::size_t i = 0; i < cloud.size; ++i) {
     const shortshot::Point p = shortshot::point(cloud, i);
     if (!shortshot::is_finite(p)) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += static_cast<double>(shortshot::coordinate(p, axis));
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      sum[axis] += static_cast<double>(shortshot::extend::coordinate(p, axis));
     count += 1.0;
   }
   const auto mean = [&](int axis) { return static_cast<float>(sum[axis] / count); };
@@ -58,7 +59,7 @@ View::View(RgbdCloud cloud, const ViewSettings& settings)
     thin_out(keypoints_, settings.most_keypoints, settings.seed);
   }
   const shortshot::GridSearch near(view, settings.normal_radius);
-  require(shortshot::estimate_normals(view, near, settings.normal_radius, normals_, camera_of_cloud(cloud_)));
+  require(shortshot::estimate_normals(view, near, settings.normal_radius, camera_of_cloud(cloud_), normals_));
   search_ = std::make_unique<shortshot::GridSearch>(view, settings.radius);
   require(search_->status());
   center_ = center_of(view);

@@ -36,7 +36,7 @@ class View {
  private:
   RgbdCloud cloud_;
   ViewSettings settings_;
-  std::vector<shortshot::Normal> normals_;
+  std::vector<shortshot::SurfaceNormal> normals_;
   std::vector<shortshot::KeyPoint> keypoints_;
   shortshot::Point center_{};
   std::unique_ptr<shortshot::GridSearch> search_;

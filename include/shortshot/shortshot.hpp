@@ -22,7 +22,7 @@
 #if defined(EIGEN_WORLD_VERSION)
 #include "recognition/match.hpp"
 #include "recognition/pose.hpp"
-#include "recognition/recognizer.hpp"
+#include "recognition/recognize.hpp"
 #include "recognition/recognizer_model.hpp"
 #endif
 #endif

@@ -6,6 +6,7 @@
 #include "config.hpp"
 
 namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
 
 /// Result of every call that can fail. Whatever is not `ok` comes with a zeroed output, never with NaN.
 // (version 14 of it does not know attributes of enumerations)
@@ -37,12 +38,14 @@ enum class [[nodiscard]] Status : std::uint8_t {
   other_descriptor,    ///< descriptors of another layout than the model was trained with
   damaged_model,       ///< the model is truncated, or its checksum or contents are wrong
   no_file,             ///< a file cannot be read or written
+  missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
 };
 // clang-format on
 
-inline constexpr int status_count = static_cast<int>(Status::no_file) + 1;
+inline constexpr int status_count = static_cast<int>(Status::missing_intensities) + 1;
 
-inline namespace SHORTSHOT_ISA {
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
 
 /// One English sentence for a status. Static storage; never null.
 [[nodiscard]] constexpr const char* message(Status status) noexcept {
@@ -73,9 +76,10 @@ inline namespace SHORTSHOT_ISA {
     case Status::other_descriptor: return "the model was trained with another descriptor";
     case Status::damaged_model: return "the model is damaged";
     case Status::no_file: return "the file cannot be read or written";
+    case Status::missing_intensities: return "the descriptor needs intensities and there are none";
   }
   return "unknown status";
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

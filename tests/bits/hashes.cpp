@@ -76,8 +76,8 @@ void print_frames_and_normals(const Input& input, const GridSearch& search) {
     hash.add(statuses, 2);
     hash.add(&n.found, 1);
     hash.add(&frame, 1);
-    Normal normal{};
-    const Status status = estimate_normal(n, input.radius, nullptr, normal);
+    SurfaceNormal normal{};
+    const Status status = estimate_normal(n, input.radius, normal);
     normals.add(&status, 1);
     normals.add(&normal, 1);
   }
@@ -86,10 +86,10 @@ void print_frames_and_normals(const Input& input, const GridSearch& search) {
 }
 
 /// Of every point, seen from the origin.
-std::vector<Normal> print_normals(const std::string& name, const CloudView& cloud, const GridSearch& search,
-                                  Radius radius) {
-  std::vector<Normal> normals;
-  const Status status = estimate_normals(cloud, search, radius, normals);
+std::vector<SurfaceNormal> print_normals(const std::string& name, const CloudView& cloud, const GridSearch& search,
+                                         Radius radius) {
+  std::vector<SurfaceNormal> normals;
+  const Status status = estimate_normals(cloud, search, radius, Viewpoint::towards({}), normals);
   Hash hash;
   hash.add(&status, 1);
   hash.add(normals.data(), normals.size());
@@ -141,7 +141,7 @@ void print_scene() {
   keypoints.add(input.keypoints.data(), input.keypoints.size());
   keypoints.print(input.name, "keypoints");
   const GridSearch search(input.cloud, 0.03f);
-  const std::vector<Normal> normals = print_normals(input.name, input.cloud, search, 0.03f);
+  const std::vector<SurfaceNormal> normals = print_normals(input.name, input.cloud, search, 0.03f);
   input.cloud = with_normals(input.cloud, normals.data());
   print_all(input);
 }

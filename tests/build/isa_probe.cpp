@@ -12,7 +12,7 @@ constexpr float radius = 0.03f;
 
 using shortshot::Status;
 shortshot::Workspace<count> workspace;
-shortshot::Normal normals[count];
+shortshot::SurfaceNormal normals[count];
 
 }  // namespace
 
@@ -37,7 +37,7 @@ IsaProbe PROBE() {
   for (std::size_t i = 0; i < count && status == Status::ok; ++i) {
     shortshot::Neighborhood n = shortshot::neighborhood_in(workspace);
     status = search.gather(shortshot::point(cloud, i), 0.2f * radius, n);
-    if (status == Status::ok) status = shortshot::estimate_normal(n, 0.2f * radius, nullptr, normals[i]);
+    if (status == Status::ok) status = shortshot::estimate_normal(n, 0.2f * radius, normals[i]);
   }
   cloud = shortshot::with_normals(cloud, normals);
   using Cshot = shortshot::Cshot1344;

@@ -12,7 +12,7 @@ shortshot::StaticGrid<max_points, 1024> grid;
 shortshot::OrganizedSearch image;
 float descriptor[shortshot::Cshot1344::size];
 shortshot::PackedLab colors[max_points];
-shortshot::Normal normals[max_points];
+shortshot::SurfaceNormal normals[max_points];
 shortshot::BinaryDescriptor<shortshot::Shot352> bits, last_bits;
 shortshot::ByteDescriptor<shortshot::Scsh336> bytes, last_bytes;
 volatile int bits_apart;
@@ -58,9 +58,9 @@ shortshot::Status describe_with_normals(const shortshot::CloudView& points, std:
   for (std::size_t i = 0; i < points.size; ++i) {
     shortshot::Neighborhood n = shortshot::neighborhood_in(workspace);
     const shortshot::Point p = shortshot::point(points, i);
-    const float towards_camera[3] = {-p.x, -p.y, -p.z};
     Status status = grid.gather(p, radius, n);
-    if (status == Status::ok) status = shortshot::estimate_normal(n, radius, towards_camera, normals[i]);
+    if (status == Status::ok)
+      status = shortshot::estimate_normal(n, radius, normals[i], shortshot::Viewpoint::towards({}));
     if (status != Status::ok) return status;
   }
   const shortshot::CloudView cloud = shortshot::with_normals(points, normals);

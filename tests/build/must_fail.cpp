@@ -63,7 +63,7 @@ shortshot::Status wrong_rule(const shortshot::Neighborhood& n, const shortshot::
 }
 #elif CASE == 15
 shortshot::Status no_colors(const shortshot::Neighborhood& n, float* out) {
-  return shortshot::describe<shortshot::Scsh336>(n, shortshot::NoColors{}, {}, 0.1f, out);
+  return shortshot::describe<shortshot::Scsh336>(n, shortshot::sources(), {}, 0.1f, out);
 }
 #elif CASE == 16
 shortshot::Status no_executor(const shortshot::CloudView& cloud, shortshot::Features<shortshot::Ssh32>& out) {
@@ -71,7 +71,7 @@ shortshot::Status no_executor(const shortshot::CloudView& cloud, shortshot::Feat
   return shortshot::extract(cloud, shortshot::BruteSearch{cloud}, keypoints, 0.1f, out, 2.0f);
 }
 #elif CASE == 17
-shortshot::Features<shortshot::Scsh336, shortshot::Rgb> features;
+shortshot::Extractor<shortshot::Scsh336, shortshot::Rgb> extractor;
 #elif CASE == 18
 static_assert(shortshot::Shot<Grid<2, 2, 8>, 0>::size == 32, "");
 #elif CASE == 19
@@ -82,7 +82,7 @@ using TwoConventions =
 static_assert(TwoConventions::size > 0, "");
 #elif CASE == 20
 shortshot::Status no_normals(const shortshot::Neighborhood& n, float* out) {
-  return shortshot::describe<shortshot::Shot352>(n, shortshot::NoColors{}, shortshot::NoNormals{}, {}, 0.1f, out);
+  return shortshot::describe<shortshot::Shot352>(n, shortshot::sources(), {}, 0.1f, out);
 }
 #elif CASE == 21
 struct NamelessVoting : shortshot::PublishedVoting {

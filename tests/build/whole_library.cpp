@@ -56,8 +56,9 @@ std::size_t describe(const shortshot::CloudView& cloud, const Search& search) {
   shortshot::Features<D> features;
   if (shortshot::sample_uniform(cloud, 0.1f, keypoints) != shortshot::Status::ok) return 0;
   if (shortshot::extract<D>(cloud, search, keypoints, 0.1f, features, 2) != shortshot::Status::ok) return 0;
-  shortshot::Features<D, shortshot::PackedLab> packed;
-  if (shortshot::extract<D>(cloud, search, keypoints, 0.1f, packed, Executor{}) != shortshot::Status::ok) return 0;
+  shortshot::Extractor<D, shortshot::PackedLab> extractor;
+  shortshot::Features<D> packed;
+  if (extractor.extract(cloud, search, keypoints, 0.1f, packed, Executor{}) != shortshot::Status::ok) return 0;
   Signatures<D> signatures{};
   shortshot::to_pcl(features, signatures);
   return signatures.points.size() + packed.size();
@@ -65,8 +66,8 @@ std::size_t describe(const shortshot::CloudView& cloud, const Search& search) {
 
 template <class D, class Search>
 std::size_t describe_with_normals(const shortshot::CloudView& cloud, const Search& search) {
-  std::vector<shortshot::Normal> normals;
-  if (shortshot::estimate_normals(cloud, search, 0.1f, normals) != shortshot::Status::ok) return 0;
+  std::vector<shortshot::SurfaceNormal> normals;
+  if (shortshot::estimate_normals(cloud, search, 0.1f, {}, normals) != shortshot::Status::ok) return 0;
   std::vector<float> row(D::size);
   shortshot::BinaryDescriptor<D> bits;
   shortshot::binarize(row.data(), bits);
@@ -98,7 +99,7 @@ std::size_t recognize(const shortshot::CloudView& cloud) {
   if (shortshot::extract(cloud, search, keypoints, 0.1f, features) != shortshot::Status::ok) return 0;
 
   std::vector<shortshot::Match> matches;
-  std::vector<shortshot::Correspondence> correspondences;
+  std::vector<shortshot::MatchedPair> correspondences;
   if (shortshot::nearest(rows_of(features), rows_of(features), 2, matches) != shortshot::Status::ok) return 0;
   if (shortshot::reciprocal_correspondences(rows_of(features), rows_of(features), correspondences, 2) !=
       shortshot::Status::ok) {
@@ -113,15 +114,15 @@ std::size_t recognize(const shortshot::CloudView& cloud) {
   if (shortshot::estimate_pose(pairs, {}, pose, inliers) != shortshot::Status::ok) return 0;
 
   shortshot::Recognizer recognizer;
-  if (recognizer.train(features, keypoints, {}, "class", "instance") != shortshot::Status::ok) return 0;
+  if (shortshot::train(recognizer, features, {}, "class", "instance") != shortshot::Status::ok) return 0;
   std::vector<std::uint8_t> model;
   if (shortshot::save(recognizer, model) != shortshot::Status::ok) return 0;
   const std::string layout = shortshot::layout_of<shortshot::Ssh32>();
   if (shortshot::load(model.data(), model.size(), layout, recognizer) != shortshot::Status::ok) return 0;
   std::vector<shortshot::Hypothesis> hypotheses;
   shortshot::ActivationShares shares;
-  if (recognizer.recognize(features, keypoints, hypotheses) != shortshot::Status::ok) return 0;
-  if (recognizer.activation_shares(features, shares) != shortshot::Status::ok) return 0;
+  if (shortshot::recognize(recognizer, features, hypotheses) != shortshot::Status::ok) return 0;
+  if (shortshot::activation_shares(recognizer, features, shares) != shortshot::Status::ok) return 0;
   return hypotheses.size() + shares.classes.size() + inliers.size();
 }
 #endif

@@ -51,7 +51,7 @@ class Random {
 struct TestCloud {
   std::vector<float> xyz;
   std::vector<std::uint8_t> rgb;
-  std::vector<ss::Normal> normals;  // none, or one per point
+  std::vector<ss::SurfaceNormal> normals;  // none, or one per point
 
   [[nodiscard]] std::size_t size() const { return xyz.size() / 3; }
   void add(float x, float y, float z, ss::Rgb color = {128, 64, 32}) {
@@ -85,9 +85,9 @@ inline TestCloud curved_surface(std::uint32_t seed, std::size_t points) {
   return cloud;
 }
 
-inline constexpr ss::Normal no_normal{not_a_number, not_a_number, not_a_number};
+inline constexpr ss::SurfaceNormal no_normal{not_a_number, not_a_number, not_a_number};
 
-inline ss::Normal unit_normal(float x, float y, float z) {
+inline ss::SurfaceNormal unit_normal(float x, float y, float z) {
   const float length = std::sqrt(x * x + y * y + z * z);
   return {x / length, y / length, z / length};
 }
@@ -113,7 +113,7 @@ inline TestCloud with_random_normals(TestCloud cloud, std::uint32_t seed) {
     const float x = random.between(-1.0f, 1.0f);
     const float y = random.between(-1.0f, 1.0f);
     const float z = random.between(0.1f, 1.0f);
-    const ss::Normal normal = unit_normal(x, y, random.below(2) == 0 ? z : -z);
+    const ss::SurfaceNormal normal = unit_normal(x, y, random.below(2) == 0 ? z : -z);
     cloud.normals.push_back(random.below(50) == 0 ? no_normal : normal);
   }
   return cloud;
@@ -157,8 +157,8 @@ struct Room {
   explicit Room(std::size_t n) : floats(4 * n), index(n), capacity(static_cast<std::uint32_t>(n)) {}
   [[nodiscard]] ss::Neighborhood neighborhood() {
     float* p = floats.data();
-    return {p, p + capacity, p + 2 * std::size_t{capacity}, p + 3 * std::size_t{capacity}, index.data(), capacity, 0,
-            0};
+    return {p, p + capacity, p + 2 * std::size_t{capacity}, p + 3 * std::size_t{capacity}, index.data(), capacity, 0, 0,
+            {}};
   }
   std::vector<float> floats;
   std::vector<std::uint32_t> index;

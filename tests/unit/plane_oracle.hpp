@@ -46,9 +46,9 @@ inline OraclePlane oracle_plane(const TestCloud& cloud, std::size_t index, ss::R
   return plane;
 }
 
-inline Eigen::Vector3d to_double(const ss::Normal& n) { return Eigen::Vector3f(n.x, n.y, n.z).cast<double>(); }
+inline Eigen::Vector3d to_double(const ss::SurfaceNormal& n) { return Eigen::Vector3f(n.x, n.y, n.z).cast<double>(); }
 
-inline void require_normal(const ss::Normal& normal, const OraclePlane& oracle) {
+inline void require_normal(const ss::SurfaceNormal& normal, const OraclePlane& oracle) {
   const Eigen::Vector3d n = to_double(normal);
   REQUIRE(std::abs(n.norm() - 1.0) < 1e-6);
   REQUIRE(n.cross(oracle.normal).norm() <= oracle.bound);

@@ -30,7 +30,7 @@ inline std::vector<ss::PointPair> moved(Random& random, const ss::Pose& pose, st
   std::vector<ss::PointPair> pairs;
   for (std::size_t i = 0; i < count; ++i) {
     const ss::Point source = point_in_box(random);
-    const ss::Point target = ss::apply(pose, source);
+    const ss::Point target = ss::transform_point(pose, source);
     pairs.push_back({source,
                      {target.x + random.between(-noise, noise), target.y + random.between(-noise, noise),
                       target.z + random.between(-noise, noise)}});

@@ -27,8 +27,8 @@ inline std::set<ss::Status> reached_by_recognition(const ss::Frame& frame) {
                            ss::nearest(row.descriptors, row.descriptors, 0, matches),
                            ss::estimate_pose(std::vector<ss::PointPair>(2), {}, pose, inliers),
                            ss::estimate_pose(std::vector<ss::PointPair>(3), {}, pose, inliers),
-                           recognizer.recognize(row, "a", objects)};
-  REQUIRE(recognizer.train(row, "a", {}, "class", "instance") == Status::ok);
+                           ss::recognize(recognizer, row, "a", objects)};
+  REQUIRE(ss::train(recognizer, row, "a", {}, "class", "instance") == Status::ok);
   std::vector<std::uint8_t> model;
   REQUIRE(ss::save(recognizer, model) == Status::ok);
   const auto load = [&](std::size_t size, const char* layout) {

@@ -6,7 +6,7 @@
 
 extern "C" {
 extern const float golden_points[], golden_points_end[], golden_frames[], golden_frames_end[];
-extern const shortshot::Normal golden_normals[];
+extern const shortshot::SurfaceNormal golden_normals[];
 extern const unsigned char golden_rgb[];
 extern const std::int32_t golden_keypoints[], golden_keypoints_end[];
 }
@@ -109,7 +109,7 @@ auto describe_with(Scratch& scratch) {
 
 template <class D, std::uint32_t Chunk>
 bool same_in_chunks(const char* name, std::uint32_t hash) {
-  if constexpr (Chunk % shortshot::simd::lanes != 0) {
+  if constexpr (Chunk % shortshot::extend::simd::lanes != 0) {
     return true;  // on this machine there is no such size
   } else {
     bool good = same(name, hash, "chunk size", hash_by_grid<D>(describe_with<D, Chunk>(workspace)));

@@ -13,7 +13,7 @@ inline constexpr std::size_t points = 2000;
 struct Memory {
   float xyz[points][3];
   unsigned char rgb[points][3];
-  shortshot::Normal normals[points];
+  shortshot::SurfaceNormal normals[points];
 };
 
 /// Without normals. Pixel p is point p * step modulo their number: an image if step is 1, else all over the place.
@@ -50,8 +50,8 @@ shortshot::CloudView with_normals(const shortshot::CloudView& cloud, float radiu
   for (std::size_t i = 0; i < cloud.size; ++i) {
     auto n = shortshot::neighborhood_in(workspace);
     shortshot::Status status = search.gather(shortshot::point(cloud, i), radius, n);
-    if (status == shortshot::Status::ok) status = shortshot::estimate_normal(n, radius, nullptr, memory.normals[i]);
-    if (status != shortshot::Status::ok) memory.normals[i] = shortshot::Normal{__builtin_nanf(""), 0.0f, 0.0f};
+    if (status == shortshot::Status::ok) status = shortshot::estimate_normal(n, radius, memory.normals[i]);
+    if (status != shortshot::Status::ok) memory.normals[i] = shortshot::SurfaceNormal{__builtin_nanf(""), 0.0f, 0.0f};
   }
   return shortshot::with_normals(cloud, memory.normals);
 }

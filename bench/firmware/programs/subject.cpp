@@ -16,7 +16,7 @@ Status describe(const Job& job, const Search& search, Colors... colors) {
 template <class Search>
 Status gather(const Job& job, const Search& search) {
   const shortshot::Point center = shortshot::point(job.cloud, job.index);
-  auto neighborhood = shortshot::neighborhood_in(*job.workspace, job.cloud, center);
+  auto neighborhood = shortshot::neighborhood_in(*job.workspace, job.cloud);
   return search.gather(center, job.radius, neighborhood);
 }
 

@@ -44,7 +44,7 @@ std::vector<Cost> FrameWork::run(Clock clock) {
   const Cost whole = cost_of(clock, [&] {
     build = cost_of(clock, [&] { require(index_.build(cloud_.view, radius_)); });
     extract = cost_of(
-        clock, [&] { require(shortshot::extract(cloud_.view, index_, keypoints_, radius_, features_, threads_)); });
+        clock, [&] { require(extractor_.extract(cloud_.view, index_, keypoints_, radius_, features_, threads_)); });
   });
   return {build, extract, whole};
 }

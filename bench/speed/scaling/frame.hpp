@@ -51,6 +51,7 @@ class FrameWork {
   float radius_;
   unsigned threads_;
   shortshot::GridSearch index_;
+  shortshot::Extractor<Measured> extractor_;
   shortshot::Features<Measured> features_;
 };
 

@@ -16,6 +16,13 @@
 
 #ifndef STAGES
 #define STAGES stages_plain
+#if defined(__SSE2__)
+#define STAGES_ISA sse2
+#elif defined(__aarch64__)
+#define STAGES_ISA neon
+#else
+#define STAGES_ISA scalar
+#endif
 #endif
 #define TEXT_OF(name) #name
 #define TEXT(name) TEXT_OF(name)
@@ -39,15 +46,15 @@ template <class Search>
 }
 
 [[gnu::noinline]] Status normals_of_cloud(const shortshot::CloudView& view, const shortshot::GridSearch& search,
-                                          float radius, const shortshot::Point& camera,
-                                          std::vector<shortshot::Normal>& normals) {
-  return shortshot::estimate_normals(view, search, radius, normals, camera);
+                                          float radius, const shortshot::Viewpoint& camera,
+                                          std::vector<shortshot::SurfaceNormal>& normals) {
+  return shortshot::estimate_normals(view, search, radius, camera, normals);
 }
 
-template <class D, class Colors, class Normals>
-[[gnu::noinline]] Status kernel(const shortshot::Neighborhood& n, const Colors& colors, const Normals& normals,
-                                const shortshot::Frame& frame, float radius, float* out) {
-  return shortshot::describe<D>(n, colors, normals, frame, radius, out);
+template <class D, class Sources>
+[[gnu::noinline]] Status kernel(const shortshot::Neighborhood& n, const Sources& sources, const shortshot::Frame& frame,
+                                float radius, float* out) {
+  return shortshot::describe<D>(n, sources, frame, radius, out);
 }
 
 template <class Rule>
@@ -123,13 +130,13 @@ class StageList {
   void add_normals() {
     const Workload& w = workload_;
     const auto near = std::make_shared<shortshot::GridSearch>(w.view(), w.normal_radius);
-    const auto normals = std::make_shared<std::vector<shortshot::Normal>>();
+    const auto normals = std::make_shared<std::vector<shortshot::SurfaceNormal>>();
     Stage& stage = add("normals", [&w, near, normals] {
       return normals_of_cloud(w.view(), *near, w.normal_radius, camera_of_cloud(w.cloud), *normals);
     });
     stage.points = w.cloud.size();
     stage.neighbors = w.normal_neighbors;
-    stage.bytes = stage.points * sizeof(shortshot::Normal);
+    stage.bytes = stage.points * sizeof(shortshot::SurfaceNormal);
   }
 
   void add_lab() {
@@ -225,13 +232,12 @@ class StageList {
     std::shared_ptr<std::vector<shortshot::Lab>> lab;
     if constexpr (D::needs_colors) lab = lab_by<typename D::LabRule>();
     return [lab, view = workload_.view()](const GatheredKeyPoint& k, float radius, float* out) {
-      const auto run = [&](const auto& colors) {
-        return kernel<D>(k.neighborhood, colors, shortshot::CloudNormals{view}, k.frame, radius, out);
-      };
+      const shortshot::CloudNormals normals{view};
       if constexpr (D::needs_colors) {
-        return run(shortshot::LabColors{lab->data(), shortshot::to_lab<typename D::LabRule>(k.key.color)});
+        const shortshot::LabColors colors{lab->data(), shortshot::to_lab<typename D::LabRule>(k.key.color)};
+        return kernel<D>(k.neighborhood, shortshot::sources(colors, normals), k.frame, radius, out);
       } else {
-        return run(shortshot::NoColors{});
+        return kernel<D>(k.neighborhood, shortshot::sources(normals), k.frame, radius, out);
       }
     };
   }
@@ -281,7 +287,7 @@ StageBuild STAGES(const Workload& workload) {
   list.add_descriptor<shortshot::Shot352>("Shot352");
   list.add_descriptor<shortshot::Cshot1344>("Cshot1344");
   list.add_binary<shortshot::Shot352>("Shot352");
-  return {std::string(TEXT(SHORTSHOT_ISA)).substr(std::string("isa_").size()), std::move(list.stages)};
+  return {TEXT(STAGES_ISA), std::move(list.stages)};
 }
 
 }  // namespace shortshot_bench

@@ -38,7 +38,7 @@ void choose(const shortshot::GridSearch& search, const shortshot::KeyPoint& key,
   if (shortshot::estimate_frame(neighborhood, workload.radius, frame) != Status::ok) return;
   float shot[shortshot::Shot352::size];
   const Status described = shortshot::describe<shortshot::Shot352>(
-      neighborhood, shortshot::NoColors{}, shortshot::CloudNormals{workload.view()}, frame, workload.radius, shot);
+      neighborhood, shortshot::CloudNormals{workload.view()}, frame, workload.radius, shot);
   if (described != Status::ok) return;
   workload.chosen_neighbors += count;
   workload.most_neighbors = std::max(workload.most_neighbors, count);
@@ -48,9 +48,9 @@ void choose(const shortshot::GridSearch& search, const shortshot::KeyPoint& key,
 void add_normals(Workload& workload) {
   const shortshot::CloudView view = view_of_cloud(workload.cloud);
   const shortshot::GridSearch search(view, workload.normal_radius);
-  const shortshot::Point camera = camera_of_cloud(workload.cloud);
-  require(shortshot::estimate_normals(view, search, workload.normal_radius, workload.normals, camera));
-  shortshot::for_each_valid(view, [&](std::size_t, const shortshot::Point& p) {
+  require(shortshot::estimate_normals(view, search, workload.normal_radius, camera_of_cloud(workload.cloud),
+                                      workload.normals));
+  shortshot::extend::for_each_valid(view, [&](std::size_t, const shortshot::Point& p) {
     workload.normal_neighbors += count_neighbors(search, p, workload.normal_radius);
   });
 }
@@ -63,7 +63,7 @@ NeighborhoodMemory::NeighborhoodMemory(std::uint32_t capacity)
 shortshot::Neighborhood NeighborhoodMemory::empty() const {
   float* const p = floats_.get();
   const std::size_t n = capacity_;
-  return {p, p + n, p + 2 * n, p + 3 * n, index_.get(), capacity_, 0, 0};
+  return {p, p + n, p + 2 * n, p + 3 * n, index_.get(), capacity_, 0, 0, {}};
 }
 
 shortshot::CloudView Workload::view() const { return shortshot::with_normals(view_of_cloud(cloud), normals.data()); }

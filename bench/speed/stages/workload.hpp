@@ -45,14 +45,14 @@ struct GatheredKeyPoint {
 struct Workload {
   RgbdCloud cloud;
   float radius;
-  float normal_radius;                     // a quarter of it
-  std::vector<shortshot::Normal> normals;  // one per point, towards the camera
-  std::size_t normal_neighbors;            // of all valid points together, within that radius
-  std::vector<std::uint32_t> sampled;      // key points by uniform sampling: what extract() is given
-  std::size_t sampled_neighbors;           // of them all together
-  std::vector<GatheredKeyPoint> chosen;    // some of them, so few that their neighborhoods stay in the cache
-  std::size_t chosen_neighbors;            // of these all together
-  std::uint32_t most_neighbors;            // of one of these
+  float normal_radius;                            // a quarter of it
+  std::vector<shortshot::SurfaceNormal> normals;  // one per point, towards the camera
+  std::size_t normal_neighbors;                   // of all valid points together, within that radius
+  std::vector<std::uint32_t> sampled;             // key points by uniform sampling: what extract() is given
+  std::size_t sampled_neighbors;                  // of them all together
+  std::vector<GatheredKeyPoint> chosen;           // some of them, so few that their neighborhoods stay in the cache
+  std::size_t chosen_neighbors;                   // of these all together
+  std::uint32_t most_neighbors;                   // of one of these
 
   shortshot::CloudView view() const;  // with normals
 };

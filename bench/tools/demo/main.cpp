@@ -46,9 +46,9 @@ std::size_t valid_points(const shortshot::CloudView& view) {
   return valid;
 }
 
-std::size_t with_normal(const std::vector<shortshot::Normal>& normals) {
-  return static_cast<std::size_t>(
-      std::count_if(normals.begin(), normals.end(), [](const shortshot::Normal& n) { return !std::isnan(n.x); }));
+std::size_t with_normal(const std::vector<shortshot::SurfaceNormal>& normals) {
+  return static_cast<std::size_t>(std::count_if(normals.begin(), normals.end(),
+                                                [](const shortshot::SurfaceNormal& n) { return !std::isnan(n.x); }));
 }
 
 void print_result(const RgbdCloud& cloud, double read_ms, const DemoOptions& options, const DemoResult& result) {

@@ -41,7 +41,7 @@ void estimate_normals(const RgbdCloud& cloud, const DemoOptions& options, DemoRe
   const float radius = normal_radius(options);
   const Stopwatch stopwatch;
   with_search(view, options.search, radius, [&](const auto& search) {
-    require(shortshot::estimate_normals(view, search, radius, result.normals, camera_of_cloud(cloud), options.threads));
+    require(shortshot::estimate_normals(view, search, radius, camera_of_cloud(cloud), result.normals, options.threads));
   });
   result.normals_ms = stopwatch.elapsed_ms();
 }
@@ -59,7 +59,7 @@ std::string layout_of(const char* name) {
 
 template <class Signal>
 constexpr const char* name_of() {
-  return Signal::needs_colors ? "color distance" : Signal::needs_normals ? "normals" : "occupancy";
+  return Signal::name;
 }
 
 template <class Voting, class... Parts>
@@ -82,8 +82,7 @@ DemoResult describe(const RgbdCloud& cloud, const DemoOptions& options) {
   }
 
   shortshot::Support support = options.radius;
-  const shortshot::Point camera = camera_of_cloud(cloud);
-  if (options.towards_camera) support.viewpoint = &camera;
+  if (options.towards_camera) support.viewpoint = camera_of_cloud(cloud);
   shortshot::Features<D> features;
   const Stopwatch indexing;
   with_search(view, options.search, options.radius, [&](const auto& search) {

@@ -30,7 +30,7 @@ struct DemoResult {
   std::vector<float> values;  // one row of `size` floats per key point
   std::vector<shortshot::Status> status;
   std::vector<std::uint32_t> neighbors;
-  std::vector<shortshot::Normal> normals;  // one per point, or none if the descriptor needs none
+  std::vector<shortshot::SurfaceNormal> normals;  // one per point, or none if the descriptor needs none
   std::size_t size = 0;
   std::vector<std::string> layout;  // one line per part
   double sample_ms = 0.0;

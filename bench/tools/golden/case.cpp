@@ -72,7 +72,7 @@ std::optional<double> radius_of(const Description& description, const char* key)
   const auto radius = value->get<double>();
   // Compared in double first: a double that float cannot hold must not be converted.
   if (!(radius > 0.0 && radius < 1e18) ||
-      shortshot::check(shortshot::Radius::from_double(radius)) != shortshot::Status::ok) {
+      shortshot::validate(shortshot::Radius::from_double(radius)) != shortshot::Status::ok) {
     throw description.error(key, "a radius and its square must be above zero and floats, found " + value->dump());
   }
   return radius;

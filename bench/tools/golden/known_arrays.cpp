@@ -18,9 +18,9 @@ shortshot::Status describe_by(const shortshot::Neighborhood& n, const shortshot:
   if constexpr (D::needs_colors) {
     using Rule = typename D::LabRule;
     const shortshot::RgbColors<Rule> colors{cloud, shortshot::to_lab<Rule>(key_color)};
-    return shortshot::describe<D>(n, colors, normals, frame, radius, out);
+    return shortshot::describe<D>(n, shortshot::sources(colors, normals), frame, radius, out);
   } else {
-    return shortshot::describe<D>(n, shortshot::NoColors{}, normals, frame, radius, out);
+    return shortshot::describe<D>(n, normals, frame, radius, out);
   }
 }
 

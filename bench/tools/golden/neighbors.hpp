@@ -29,9 +29,15 @@ class Neighbors {
     floats_.resize(4 * capacity);
     indices_.resize(capacity);
     float* p = floats_.data();
-    neighborhood_ = {
-        p, p + capacity, p + 2 * capacity, p + 3 * capacity, indices_.data(), static_cast<std::uint32_t>(capacity), 0,
-        0};
+    neighborhood_ = {p,
+                     p + capacity,
+                     p + 2 * capacity,
+                     p + 3 * capacity,
+                     indices_.data(),
+                     static_cast<std::uint32_t>(capacity),
+                     0,
+                     0,
+                     {}};
   }
 
   std::vector<float> floats_;

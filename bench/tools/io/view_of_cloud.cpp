@@ -9,8 +9,8 @@ shortshot::CloudView view_of_cloud(const RgbdCloud& cloud) {
   return shortshot::organized(view, cloud.width, cloud.height);
 }
 
-shortshot::Point camera_of_cloud(const RgbdCloud& cloud) {
-  return {cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]};
+shortshot::Viewpoint camera_of_cloud(const RgbdCloud& cloud) {
+  return shortshot::Viewpoint::towards({cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]});
 }
 
 }  // namespace shortshot_bench

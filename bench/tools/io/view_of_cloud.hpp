@@ -3,6 +3,7 @@
 
 #include "rgbd_cloud.hpp"
 #include "shortshot/cloud/cloud.hpp"
+#include "shortshot/frame/viewpoint.hpp"
 
 namespace shortshot_bench {
 
@@ -10,6 +11,6 @@ namespace shortshot_bench {
 shortshot::CloudView view_of_cloud(const RgbdCloud& cloud);
 
 /// Where the camera was.
-shortshot::Point camera_of_cloud(const RgbdCloud& cloud);
+shortshot::Viewpoint camera_of_cloud(const RgbdCloud& cloud);
 
 }  // namespace shortshot_bench

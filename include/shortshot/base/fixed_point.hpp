@@ -9,9 +9,8 @@
 
 #include "../config.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// The largest e such that `n` numbers of magnitude up to 2^bits, times 2^e, can be added up in any order without
 /// leaving int32, and each has at most 22 bits (what simd::round_to_int() can take).
@@ -25,6 +24,5 @@ namespace detail {
   return static_cast<float>(1 << fixed_point_exponent(n, 0));
 }
 
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

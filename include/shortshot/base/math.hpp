@@ -10,9 +10,8 @@
 #include "unfused.hpp"
 #include "unroll.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace math {
+namespace shortshot::extend::math {
+inline namespace SHORTSHOT_CODE {
 
 /// A number's bits, and the number that has these bits.
 [[nodiscard]] inline std::uint32_t bits_of(float value) noexcept {
@@ -74,9 +73,9 @@ namespace math {
   const float s = (m - 1.0f) / (m + 1.0f);  // ln m = 2 artanh s, |s| < 0.172
   const float s2 = s * s;
   const float artanh =
-      s + rounded(s * s2 *
-                  (0.333333333f + rounded(s2 * (0.2f + rounded(s2 * (0.142857143f + rounded(s2 * 0.111111111f)))))));
-  return rounded(static_cast<float>(exponent) * 0.693147181f) + rounded(2.0f * artanh);
+      s + unfused(s * s2 *
+                  (0.333333333f + unfused(s2 * (0.2f + unfused(s2 * (0.142857143f + unfused(s2 * 0.111111111f)))))));
+  return unfused(static_cast<float>(exponent) * 0.693147181f) + unfused(2.0f * artanh);
 }
 
 /// The largest power of two not above a positive normal number.
@@ -84,7 +83,7 @@ namespace math {
 
 /// What length() needs to know of vectors no longer than `longest`: 1.5 * 2^23 quanta, each 2^-10 of its power of two.
 [[nodiscard]] inline float length_splitter(float longest) noexcept {
-  return rounded(power_of_two_below(longest) * 12288.0f);
+  return unfused(power_of_two_below(longest) * 12288.0f);
 }
 
 /// sqrt(x^2 + y^2 + z^2), correctly rounded but for one case in a thousand. Points of a regular grid lie exactly on
@@ -109,6 +108,5 @@ namespace math {
   return root + error / simd::max(root + root, simd::all(1.17549435e-38f));
 }
 
-}  // namespace math
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::math

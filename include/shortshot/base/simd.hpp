@@ -20,17 +20,21 @@
 #include "simd_scalar.hpp"
 #endif
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace simd {
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
 
 /// f applied lane by lane, for the rare function that is not worth a vector version.
 template <class Function>
-[[nodiscard]] inline F32 apply(Function f, F32 a) noexcept {
+[[nodiscard]] inline F32 map(Function f, F32 a) noexcept {
   float values[lanes];
   store(values, a);
   for (float& value : values) value = f(value);
   return load(values);
+}
+
+/// The nearest whole numbers, as floats; |a| must stay below 2^22.
+[[nodiscard, gnu::always_inline]] inline F32 to_whole(F32 a) noexcept {
+  return (a + all(whole_numbers)) - all(whole_numbers);
 }
 
 /// The largest lane.
@@ -51,6 +55,5 @@ template <class Function>
   return total;
 }
 
-}  // namespace simd
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd

@@ -9,9 +9,8 @@
 #include "../config.hpp"
 #include "unfused.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace simd {
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 8;
 
@@ -26,7 +25,7 @@ struct Mask {
 };
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
-[[nodiscard]] inline float root(float value) noexcept { return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(value))); }
+[[nodiscard]] inline float sqrt(float value) noexcept { return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(value))); }
 
 [[nodiscard]] inline F32 load(const float* p) noexcept { return {_mm256_loadu_ps(p)}; }
 [[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept {
@@ -45,7 +44,7 @@ template <class Function>
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm256_add_ps(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {_mm256_sub_ps(a.v, b.v)}; }
-[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {rounded(_mm256_mul_ps(a.v, b.v))}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {unfused(_mm256_mul_ps(a.v, b.v))}; }
 [[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {_mm256_div_ps(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {_mm256_add_epi32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
@@ -186,6 +185,5 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), _mm256_permutevar8x32_epi32(a.v, packing.lanes));
 }
 
-}  // namespace simd
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd

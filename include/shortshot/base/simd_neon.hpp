@@ -10,9 +10,8 @@
 #include "../config.hpp"
 #include "unfused.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace simd {
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 4;
 
@@ -27,7 +26,7 @@ struct Mask {
 };
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
-[[nodiscard]] inline float root(float value) noexcept { return vget_lane_f32(vsqrt_f32(vdup_n_f32(value)), 0); }
+[[nodiscard]] inline float sqrt(float value) noexcept { return vget_lane_f32(vsqrt_f32(vdup_n_f32(value)), 0); }
 
 [[nodiscard]] inline F32 load(const float* p) noexcept { return {vld1q_f32(p)}; }
 [[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept { return {vreinterpretq_s32_u32(vld1q_u32(p))}; }
@@ -43,7 +42,7 @@ template <class Function>
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {vaddq_f32(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {vsubq_f32(a.v, b.v)}; }
-[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {rounded(vmulq_f32(a.v, b.v))}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {unfused(vmulq_f32(a.v, b.v))}; }
 [[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {vdivq_f32(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {vaddq_s32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {vcltq_f32(a.v, b.v)}; }
@@ -172,6 +171,5 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
   vst1q_u32(p, vreinterpretq_u32_u8(vqtbl1q_u8(vreinterpretq_u8_s32(a.v), packing.bytes)));
 }
 
-}  // namespace simd
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd

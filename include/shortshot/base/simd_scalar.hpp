@@ -9,9 +9,8 @@
 #include "../config.hpp"
 #include "unfused.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace simd {
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 1;
 
@@ -27,7 +26,7 @@ struct Mask {
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno; where there is no
 /// instruction for it, this does too (libm's sqrtf is exactly rounded everywhere).
-[[nodiscard]] inline float root(float value) noexcept {
+[[nodiscard]] inline float sqrt(float value) noexcept {
 #if defined(__ARM_FP)
   float result;
   __asm__("vsqrt.f32 %0, %1" : "=t"(result) : "t"(value));
@@ -55,7 +54,7 @@ template <class Function>
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {a.v + b.v}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {a.v - b.v}; }
-[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {rounded(a.v * b.v)}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {unfused(a.v * b.v)}; }
 [[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {a.v / b.v}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {a.v + b.v}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {a.v < b.v}; }
@@ -64,7 +63,7 @@ template <class Function>
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
 
-[[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {root(a.v)}; }
+[[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {sqrt(a.v)}; }
 [[nodiscard]] inline F32 abs(F32 a) noexcept { return {__builtin_fabsf(a.v)}; }
 [[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {a.v < b.v ? a.v : b.v}; }
 [[nodiscard]] inline F32 max(F32 a, F32 b) noexcept { return {a.v > b.v ? a.v : b.v}; }
@@ -99,7 +98,7 @@ template <class Function>
 
 /// To the nearest integer, ties to even; |a| <= 2^22. Adding 1.5 * 2^23 leaves the integer in the low mantissa bits:
 /// the same bits on every machine, with no call into libm.
-[[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {bits_of({a.v + 12582912.0f}).v - 0x4B400000}; }
+[[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {bits_of({a.v + whole_numbers}).v - 0x4B400000}; }
 
 /// Lanes of integers.
 [[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {value}; }
@@ -153,6 +152,5 @@ struct Packing {
 inline void store(float* p, F32 a, const Packing&) noexcept { *p = a.v; }
 inline void store(std::uint32_t* p, I32 a, const Packing&) noexcept { store(p, a); }
 
-}  // namespace simd
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd

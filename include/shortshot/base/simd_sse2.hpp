@@ -10,9 +10,8 @@
 #include "../config.hpp"
 #include "unfused.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace simd {
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 4;
 
@@ -27,7 +26,7 @@ struct Mask {
 };
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
-[[nodiscard]] inline float root(float value) noexcept { return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(value))); }
+[[nodiscard]] inline float sqrt(float value) noexcept { return _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(value))); }
 
 [[nodiscard]] inline F32 load(const float* p) noexcept { return {_mm_loadu_ps(p)}; }
 [[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept {
@@ -45,7 +44,7 @@ template <class Function>
 
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm_add_ps(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {_mm_sub_ps(a.v, b.v)}; }
-[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {rounded(_mm_mul_ps(a.v, b.v))}; }
+[[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {unfused(_mm_mul_ps(a.v, b.v))}; }
 [[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {_mm_div_ps(a.v, b.v)}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {_mm_add_epi32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm_cmplt_ps(a.v, b.v)}; }
@@ -173,6 +172,5 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
   store(reinterpret_cast<float*>(p), {_mm_castsi128_ps(a.v)}, packing);
 }
 
-}  // namespace simd
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd

@@ -10,9 +10,8 @@
 #include "simd.hpp"
 #include "unroll.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// The upper triangle of a symmetric matrix in each lane: xx, xy, xz, yy, yz, zz.
 struct SymmetricLanes {
@@ -110,6 +109,5 @@ SHORTSHOT_INLINE bool rotate(EigenLanes& e, simd::F32 (&off)[3], int p, int q) n
   return e;
 }
 
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

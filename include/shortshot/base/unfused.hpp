@@ -3,9 +3,8 @@
 
 #include "../config.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// Hides where a number comes from: an empty assembly statement, no instruction.
 template <class Float>
@@ -24,15 +23,23 @@ template <class Float>
   return number;
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot::extend {
+inline namespace SHORTSHOT_CODE {
 
 /// A product (a float, or a register of them), rounded as IEEE 754 says. Where the CPU has a fused multiply-add, GCC
 /// and clang may use it for a product and the sum that it goes into, which gives other bits: every product that goes
 /// into a sum must pass through here.
 template <class Float>
-[[nodiscard]] constexpr Float rounded(Float product) noexcept {
+[[nodiscard]] constexpr Float unfused(Float product) noexcept {
   return __builtin_is_constant_evaluated() ? product : detail::hidden(product);
 }
 
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+/// 1.5 * 2^23: a float below 2^22 to which this is added, and from which it is taken again, has been rounded to a whole
+/// number.
+inline constexpr float whole_numbers = 12582912.0f;
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend

@@ -7,9 +7,8 @@
 
 #include "../config.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// Was the compiler asked for small code?
 #if defined(__OPTIMIZE_SIZE__)
@@ -39,6 +38,5 @@ SHORTSHOT_INLINE void each(Function f) noexcept {
   }
 }
 
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

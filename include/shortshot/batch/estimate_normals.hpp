@@ -12,16 +12,20 @@
 #include "../base/unfused.hpp"
 #include "../base/unroll.hpp"
 #include "../cloud/cloud.hpp"
+#include "../cloud/point_lanes.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../frame/normal.hpp"
+#include "../frame/viewpoint.hpp"
 #include "../search/neighborhood.hpp"
+#include "../search/radius.hpp"
+#include "../search/search.hpp"
 #include "../status.hpp"
 #include "executor.hpp"
-#include "features.hpp"
+#include "growing_workspace.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// Points that a thread takes at a time: about a quarter of a millisecond of work.
 inline constexpr std::size_t normal_block = 512;
@@ -92,8 +96,8 @@ class CandidateChunk {
 template <class Search>
 class NormalEstimator {
  public:
-  NormalEstimator(const CloudView& cloud, const Search& search, Radius radius, const Point& viewpoint,
-                  GrowingWorkspace& workspace, Normal* normals) noexcept
+  NormalEstimator(const CloudView& cloud, const Search& search, Radius radius, const Viewpoint& viewpoint,
+                  GrowingWorkspace& workspace, SurfaceNormal* normals) noexcept
       : cloud_(cloud),
         search_(search),
         radius_(radius),
@@ -138,7 +142,7 @@ class NormalEstimator {
 
   /// Points [first, first + count) of the group, or each half of them if they lie too far apart.
   void estimate_part(std::size_t first, std::size_t count) {
-    Normal found[group] = {};
+    SurfaceNormal found[group] = {};
     Neighborhood candidates;
     Radius wide = radius_;
     if (gather_for_all(first, count, candidates, wide)) {
@@ -169,17 +173,17 @@ class NormalEstimator {
       const float dx = x_[k] - center.x;
       const float dy = y_[k] - center.y;
       const float dz = z_[k] - center.z;
-      farthest_d2 = std::max(farthest_d2, rounded(dx * dx) + rounded(dy * dy) + rounded(dz * dz));
+      farthest_d2 = std::max(farthest_d2, unfused(dx * dx) + unfused(dy * dy) + unfused(dz * dz));
     }
-    wide = Radius((radius_.value + simd::root(farthest_d2)) * 1.00001f);  // more than all roundings
+    wide = Radius((radius_.value + simd::sqrt(farthest_d2)) * 1.00001f);  // more than all roundings
     const float widest = (count > smallest_part ? 1.75f : 3.0f) * radius_.value;
-    return wide.value < widest && check(wide) == Status::ok &&
+    return wide.value < widest && validate(wide) == Status::ok &&
            workspace_.gather(search_, center, wide, candidates) == Status::ok;
   }
 
   /// Normals of these points; zeros for those that need to be looked at alone.
   void estimate_together(std::size_t first, std::size_t count, const Neighborhood& candidates, Radius wide,
-                         Normal (&found)[group]) const noexcept {
+                         SurfaceNormal (&found)[group]) const noexcept {
     const MomentScale scale = moment_scale(candidates.size, wide.value);
     Moments shares[group] = {};
     CandidateChunk chunk;
@@ -191,27 +195,33 @@ class NormalEstimator {
     }
     for (std::size_t k = first; k < first + count; k += simd::lanes) {
       const Moments moments = totals(shares + k);
-      const PointLanes towards{simd::all(viewpoint_.x) - simd::load(x_ + k),
-                               simd::all(viewpoint_.y) - simd::load(y_ + k),
-                               simd::all(viewpoint_.z) - simd::load(z_ + k)};
-      store(found + k, keep(is_fine(moments, scale), normals_of(moments, scale, towards)));
+      store(found + k, keep(is_fine(moments, scale), normals_of(moments, scale, directions_at(k))));
     }
+  }
+
+  /// What to turn the normals of a register of points to; zeros if the viewpoint is absent.
+  [[nodiscard]] PointLanes directions_at(std::size_t k) const noexcept {
+    using Side = Viewpoint::Side;
+    const float side = viewpoint_.side == Side::absent ? 0.0f : viewpoint_.side == Side::towards ? 1.0f : -1.0f;
+    const Point& p = viewpoint_.point;
+    return {(simd::all(p.x) - simd::load(x_ + k)) * simd::all(side),
+            (simd::all(p.y) - simd::load(y_ + k)) * simd::all(side),
+            (simd::all(p.z) - simd::load(z_ + k)) * simd::all(side)};
   }
 
   void estimate_alone(std::size_t k) {
     Neighborhood n;
-    const float towards[3] = {viewpoint_.x - x_[k], viewpoint_.y - y_[k], viewpoint_.z - z_[k]};
-    Normal found{};
+    SurfaceNormal found{};
     if (workspace_.gather(search_, {x_[k], y_[k], z_[k]}, radius_, n) != Status::ok) return;
-    if (estimate_normal(n, radius_, towards, found) == Status::ok) normals_[index_[k]] = found;
+    if (estimate_normal(n, radius_, found, viewpoint_) == Status::ok) normals_[index_[k]] = found;
   }
 
   const CloudView cloud_;
   const Search& search_;
   const Radius radius_;
-  const Point viewpoint_;
+  const Viewpoint viewpoint_;
   GrowingWorkspace& workspace_;
-  Normal* const normals_;
+  SurfaceNormal* const normals_;
   std::size_t index_[group];
   float x_[group];
   float y_[group];
@@ -219,16 +229,21 @@ class NormalEstimator {
   std::size_t row_;  // of an image, in points; 0 for other clouds
 };
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// The surface normal at each point of a cloud, as estimate_normal() gives it but for the rounding of sums: points that
 /// follow each other are looked at together.
 ///
 /// `search`     any search over this cloud (GridSearch, NanoflannSearch, ...)
 /// `radius`     of the neighborhoods, in meters
+/// `viewpoint`  to which side of the surface normals point: Viewpoint::towards({0, 0, 0}) for what a depth camera gives
+///              in its own coordinates; Viewpoint{} leaves them as they come
 /// `normals`    one per point, all three components NaN where the point is not finite or has no normal: fewer than
 ///              three neighbors, or all of them on a line. with_normals(cloud, normals.data()) puts them into a view
-/// `viewpoint`  where the camera is, in the cloud's coordinates: normals point to its side of the surface
 /// `threads`    how many threads share the work, or an executor (see extract()); the result is the same, bit for bit,
 ///              for any number, and for any search
 ///
@@ -238,13 +253,12 @@ class NormalEstimator {
 /// extract() may.
 template <class Search, class Threads = unsigned>
 [[nodiscard]] Status estimate_normals(const CloudView& cloud, const Search& search, Radius radius,
-                                      std::vector<Normal>& normals, Point viewpoint = {}, Threads&& threads = 1u) {
+                                      const Viewpoint& viewpoint, std::vector<SurfaceNormal>& normals,
+                                      Threads&& threads = 1u) {
   normals.clear();
-  Status status = check(cloud);
-  if (status == Status::ok) status = search.status();
-  if (status == Status::ok && search.cloud_size() != cloud.size) status = Status::bad_view;
-  if (status == Status::ok) status = check(radius);
-  if (status == Status::ok && !is_finite(viewpoint)) status = Status::bad_viewpoint;
+  Status status = detail::validate_search(cloud, search);
+  if (status == Status::ok) status = validate(radius);
+  if (status == Status::ok) status = validate(viewpoint);
   if (status != Status::ok) return status;
 
   auto&& executor = detail::executor_of(threads, (cloud.size + detail::normal_block - 1) / detail::normal_block);
@@ -260,5 +274,5 @@ template <class Search, class Threads = unsigned>
   return Status::ok;
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -12,9 +12,8 @@
 
 #include "../config.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// The executor that a plain number of threads stands for. One of them is the caller's; the others are started and
 /// joined by each run().
@@ -97,6 +96,5 @@ void for_blocks(Executor& executor, std::size_t threads, std::size_t count, std:
   executor.run([&take_part] { take_part(); });  // one pointer: a std::function holds it without memory of its own
 }
 
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

@@ -1,119 +1,31 @@
-// shortshot/batch/extract.hpp: many key points at once, on one or more threads. Hosted only: allocates, starts threads.
+// shortshot/batch/extract.hpp: many key points at once, in one call. Hosted only: allocates, starts threads.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <type_traits>
 #include <vector>
 
 #include "../cloud/cloud.hpp"
-#include "../color/color_source.hpp"
 #include "../config.hpp"
-#include "../kernel/describe_at.hpp"
-#include "../search/neighborhood.hpp"
+#include "../frame/frame.hpp"
+#include "../kernel/support.hpp"
+#include "../search/radius.hpp"
 #include "../status.hpp"
-#include "executor.hpp"
+#include "extractor.hpp"
 #include "features.hpp"
 
 namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+inline namespace SHORTSHOT_CODE {
 
-/// Key points that a thread takes at a time. Few, since one at the rim of an object has a hundredth of the neighbors
-/// of one on a table, and whoever takes the last block keeps the others waiting: of 1000 key points on 8 threads that
-/// cost 1 % with blocks of 2, 2.5 % with 4, 10 % with 16 (measured), and a block costs 30 nanoseconds at worst.
-inline constexpr std::size_t keypoint_block = 2;
-
-/// Colors that a thread converts at a time: about 20 microseconds of work.
-inline constexpr std::size_t color_block = 4096;
-
-/// Row `row` of the features but for the zeros of a failure. The workspace grows until the neighbors fit.
-template <class D, class Color, class Search>
-[[nodiscard]] Status extract_row(const CloudView& cloud, const Search& search, const KeyPoint& key,
-                                 const Support& support, GrowingWorkspace& workspace, Features<D, Color>& out,
-                                 std::size_t row) {
-  if (!is_finite(key.position)) return Status::invalid_keypoint;
-  Neighborhood n;
-  const Status status = workspace.gather(search, key.position, gather_radius(support), n);
-  out.neighbors[row] = n.found;
-  if (status != Status::ok) return status;
-  if (n.size > max_neighbors) return Status::too_many_neighbors;
-  float* values = out.values.data() + row * static_cast<std::size_t>(D::size);
-  std::memset(values, 0, D::size_bytes);
-  if constexpr (D::needs_colors) {
-    const StoredColors<Color> colors{out.scratch.lab.data(), out.scratch.to_lab(key.color)};
-    return describe_gathered<D, default_chunk_size>(cloud, n, colors, key.position, support, out.frames[row], values);
-  } else {
-    return describe_gathered<D, default_chunk_size>(cloud, n, NoColors{}, key.position, support, out.frames[row],
-                                                    values);
-  }
-}
-
-/// Room in all workspaces for a quarter more neighbors than the largest neighborhood had, whichever thread gets it
-/// next time. Nothing is done about frames up to an eighth larger than that: frames a little different need no memory.
-template <class Scratch>
-void level(Scratch& scratch, const std::vector<std::uint32_t>& neighbors) {
-  if (neighbors.empty()) return;
-  const std::size_t most = std::min(*std::max_element(neighbors.begin(), neighbors.end()), max_neighbors);
-  if (most <= scratch.leveled_for) return;
-  for (GrowingWorkspace& workspace : scratch.workspaces) workspace.reserve(most + most / 4);
-  scratch.leveled_for = most + most / 8;
-}
-
-/// `key_at(i, key)` makes `key` key point i and returns true, or returns false for one outside the cloud.
-template <class D, class Color, class Search, class KeyAt, class Threads>
-[[nodiscard]] Status extract_all(const CloudView& cloud, const Search& search, std::size_t count, const KeyAt& key_at,
-                                 const Support& support, Features<D, Color>& out, Threads& threads) {
-  constexpr auto row_size = static_cast<std::size_t>(D::size);
-  auto&& executor = executor_of(threads, (count + keypoint_block - 1) / keypoint_block);
-  const Status usable = check<D>(cloud, search, support);
-  out.status.assign(count, usable);
-  out.neighbors.assign(count, 0);
-  out.frames.assign(count, Frame{});
-  out.values.resize(count * row_size);
-  if (usable != Status::ok) {
-    std::fill(out.values.begin(), out.values.end(), 0.0f);
-    return usable;
-  }
-  auto& scratch = out.scratch;
-  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-  if (scratch.workspaces.size() < team) {
-    scratch.workspaces.resize(team);
-    scratch.leveled_for = 0;
-  }
-  if constexpr (D::needs_colors) {
-    scratch.to_lab.fill();
-    scratch.lab.resize(cloud.size);
-    for_blocks(executor, team, cloud.size, color_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-      convert_range(cloud, begin, end, scratch.to_lab, scratch.lab.data());
-    });
-  }
-  for_blocks(executor, team, count, keypoint_block, [&](std::size_t thread, std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin; row < end; ++row) {
-      KeyPoint key{};
-      Status& status = out.status[row];
-      status = Status::bad_keypoint;
-      if (key_at(row, key)) status = extract_row(cloud, search, key, support, scratch.workspaces[thread], out, row);
-      if (status == Status::ok) continue;
-      out.frames[row] = Frame{};
-      std::fill_n(out.values.data() + row * row_size, row_size, 0.0f);
-    }
-  });
-  level(scratch, out.neighbors);
-  return Status::ok;
-}
-
-}  // namespace detail
-
-/// Describe many key points of a cloud, given by their indices (of any integer type; pcl::Indices, too).
+/// Describe many key points of a cloud. Whoever describes cloud after cloud keeps an Extractor, whose extract() is the
+/// same and uses its memory again.
 ///
-/// `search`   any search over this cloud (GridSearch, NanoflannSearch, ...)
-/// `support`  radii and viewpoint; a plain float is the radius in meters
-/// `out`      one row and one Status per key point; a key point that cannot be described spoils no other
-/// `threads`  how many threads share the work, or an executor, which runs it on threads that are there already; the
-///            result is the same, bit for bit, for any number
+/// `search`     any search over this cloud (GridSearch, NanoflannSearch, ...)
+/// `keypoints`  indices into the cloud (of any integer type; pcl::Indices, too), or KeyPoints, which need not be points
+///              of it, each with its own color and intensity
+/// `support`    radii and viewpoint; a plain float is the radius in meters
+/// `out`        one row and one Status per key point; a key point that cannot be described spoils no other
+/// `threads`    how many threads share the work, or an executor, which runs it on threads that are there already; the
+///              result is the same, bit for bit, for any number
+/// `own`        sources of yours for D's signals, which come before those that the cloud has
 ///
 /// An executor is any object with `threads()`, the most threads that it runs on, and `run(work)`, which calls work() on
 /// each of them, or on fewer, but on one at least, and returns when all calls have returned. OpenMP's, with n threads:
@@ -131,36 +43,22 @@ template <class D, class Color, class Search, class KeyAt, class Threads>
 ///
 /// Returns ok if key points could be looked at at all, else why not, and every row has that status: empty_cloud,
 /// bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint, missing_colors,
-/// missing_normals, or what the search's build() returned.
-///
-/// Allocates 12 bytes a point for colors (4 with Features<D, PackedLab>) and 16 KB, about 30 bytes for each neighbor
-/// of the largest neighborhood and each thread, and the rows; with the same `out` again, nothing, until a frame needs
-/// more than those before it. Starting threads, however, costs small allocations of the C++ runtime's in every call; an
-/// executor has none. May throw what std::vector, std::thread and the executor throw (on a thread started here that
-/// ends the program).
-template <class D, class Color, class Search, class Index, class Threads = unsigned,
-          class = std::enable_if_t<std::is_integral<Index>::value>>
-[[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Index>& keypoints,
-                             const Support& support, Features<D, Color>& out, Threads&& threads = 1u) {
-  const auto key_at = [&](std::size_t row, KeyPoint& key) {
-    const auto index = static_cast<std::size_t>(keypoints[row]);  // a negative one becomes far too large
-    if (index >= cloud.size) return false;
-    key = keypoint(cloud, index);
-    return true;
-  };
-  return detail::extract_all(cloud, search, keypoints.size(), key_at, support, out, threads);
+/// missing_normals, missing_intensities, or what the search's build() returned. For allocation and exceptions see
+/// Extractor.
+template <class D, class Search, class Key, class Threads = unsigned, class... Own>
+[[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
+                             const Support& support, Features<D>& out, Threads&& threads = 1u, const Own&... own) {
+  return Extractor<D>().extract(cloud, search, keypoints, support, out, threads, own...);
 }
 
-/// The same for key points that need not be points of the cloud, each with its own position and color.
-template <class D, class Color, class Search, class Threads = unsigned>
-[[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<KeyPoint>& keypoints,
-                             const Support& support, Features<D, Color>& out, Threads&& threads = 1u) {
-  const auto key_at = [&](std::size_t row, KeyPoint& key) {
-    key = keypoints[row];
-    return true;
-  };
-  return detail::extract_all(cloud, search, keypoints.size(), key_at, support, out, threads);
+/// The same in frames that the caller knows, one for each key point: bad_rows if there are not as many; bad_frame for a
+/// key point whose frame is not orthonormal.
+template <class D, class Search, class Key, class Threads = unsigned, class... Own>
+[[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
+                             const std::vector<Frame>& frames, Radius radius, Features<D>& out, Threads&& threads = 1u,
+                             const Own&... own) {
+  return Extractor<D>().extract(cloud, search, keypoints, frames, radius, out, threads, own...);
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

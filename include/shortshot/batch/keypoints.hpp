@@ -11,13 +11,13 @@
 #include "../base/math.hpp"
 #include "../base/unfused.hpp"
 #include "../cloud/cloud.hpp"
+#include "../cloud/keypoint.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
-#include "../kernel/describe_at.hpp"
 #include "../status.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// A valid point of a cloud in its voxel. Voxel numbers stay floats: whole numbers, exact up to 2^24 voxels from the
 /// origin, as the coordinates are.
@@ -34,7 +34,7 @@ struct VoxelMember {
 
 /// All valid points, voxel after voxel, in each the one nearest to its center first.
 [[nodiscard]] inline Status sort_into_voxels(const CloudView& cloud, float leaf, std::vector<VoxelMember>& members) {
-  const Status usable = check(cloud);
+  const Status usable = validate(cloud);
   if (usable != Status::ok) return usable;
   if (!math::is_finite(leaf) || !(leaf > 0.0f)) return Status::bad_leaf;
   members.clear();
@@ -48,8 +48,8 @@ struct VoxelMember {
       member.place[axis] = position - member.voxel[axis];
       from_center[axis] = member.place[axis] - 0.5f;
     }
-    member.d2 = (rounded(from_center[0] * from_center[0]) + rounded(from_center[1] * from_center[1])) +
-                rounded(from_center[2] * from_center[2]);
+    member.d2 = (unfused(from_center[0] * from_center[0]) + unfused(from_center[1] * from_center[1])) +
+                unfused(from_center[2] * from_center[2]);
     members.push_back(member);
   });
   if (members.empty()) return Status::empty_cloud;
@@ -59,28 +59,43 @@ struct VoxelMember {
   return Status::ok;
 }
 
-/// The centroid and the mean color of one voxel's members.
+/// The centroid of one voxel's members, with the means of their colors and of their intensities (the finite ones).
 [[nodiscard]] inline KeyPoint centroid_of(const CloudView& cloud, float leaf, const VoxelMember* first,
                                           const VoxelMember* end) noexcept {
   const auto count = static_cast<std::uint32_t>(end - first);
   float place[3] = {};
   std::uint64_t rgb[3] = {};
+  float intensities = 0.0f;
+  std::uint32_t echoes = 0;
   for (const VoxelMember* member = first; member != end; ++member) {
     for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += member->place[axis];
-    if (!has_colors(cloud)) continue;
-    const Rgb c = color(cloud, member->index);
-    rgb[0] += c.r;
-    rgb[1] += c.g;
-    rgb[2] += c.b;
+    if (has_colors(cloud)) {
+      const Rgb c = color(cloud, member->index);
+      rgb[0] += c.r;
+      rgb[1] += c.g;
+      rgb[2] += c.b;
+    }
+    const float echo = has_intensities(cloud) ? intensity(cloud, member->index) : 0.0f;
+    if (!math::is_finite(echo)) continue;
+    intensities += echo;
+    ++echoes;
   }
   const auto at = [&](std::size_t axis) {
     return (first->voxel[axis] + place[axis] / static_cast<float>(count)) * leaf;
   };
   const auto mean = [&](std::size_t c) { return static_cast<std::uint8_t>((rgb[c] + count / 2) / count); };
-  return {{at(0), at(1), at(2)}, {mean(0), mean(1), mean(2)}};
+  KeyPoint key(Point{at(0), at(1), at(2)});
+  if (has_colors(cloud)) key = KeyPoint(key.position, {mean(0), mean(1), mean(2)});
+  key.has_intensity = has_intensities(cloud) && echoes > 0;
+  if (key.has_intensity) key.intensity = intensities / static_cast<float>(echoes);
+  return key;
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// One key point per voxel of `leaf` meters that holds a valid point: the point nearest to the voxel's center (the one
 /// with the smaller index if two are as near). Voxels lie on a grid through the origin.
@@ -97,9 +112,9 @@ struct VoxelMember {
   return Status::ok;
 }
 
-/// The same with the centroid and the mean color (black without colors) of each voxel's points: less noise than any
-/// one of them has, which pays most where the key point's color is what color distances refer to. Voxels by z, then
-/// y, then x.
+/// The same with the centroid, the mean color and the mean intensity (of what the cloud has) of each voxel's points:
+/// less noise than any one of them has, which pays most where the key point's color is what color distances refer to.
+/// Voxels by z, then y, then x.
 [[nodiscard]] inline Status sample_centroids(const CloudView& cloud, float leaf, std::vector<KeyPoint>& keypoints) {
   keypoints.clear();
   std::vector<detail::VoxelMember> members;
@@ -117,5 +132,5 @@ struct VoxelMember {
   return Status::ok;
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -15,7 +15,7 @@
 #include "features.hpp"
 
 namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+inline namespace SHORTSHOT_CODE {
 
 /// Copies features into a cloud shaped as pcl::PointCloud<pcl::SHOT352> or <pcl::SHOT1344>: `points` of structs with
 /// float descriptor[D::size] and rf[9], `width`, `height`, `is_dense`. One point per key point, in order; rf is the
@@ -23,8 +23,8 @@ inline namespace SHORTSHOT_ISA {
 ///
 /// A key point without descriptor is NaN in all its floats, as in PCL, and the cloud is not dense then. Allocates the
 /// points; may throw what their resize() does.
-template <class D, class Color, class PclCloud>
-void to_pcl(const Features<D, Color>& features, PclCloud& cloud) {
+template <class D, class PclCloud>
+void to_pcl(const Features<D>& features, PclCloud& cloud) {
   using Signature = std::remove_reference_t<decltype(cloud.points[0])>;
   static_assert(sizeof(Signature::descriptor) == D::size_bytes && sizeof(Signature::rf) == sizeof(Frame),
                 "to_pcl() supports clouds of structs with float descriptor[D::size] and rf[9]");
@@ -47,5 +47,5 @@ void to_pcl(const Features<D, Color>& features, PclCloud& cloud) {
   }
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

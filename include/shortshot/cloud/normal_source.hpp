@@ -8,29 +8,29 @@
 #include "../config.hpp"
 #include "../status.hpp"
 #include "cloud.hpp"
+#include "keypoint.hpp"
+#include "point_lanes.hpp"
+#include "read.hpp"
 
 namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+inline namespace SHORTSHOT_CODE {
 
-/// The normals of a cloud's own channel: what a NormalCosine looks at. A neighbor whose normal is not finite has none.
+/// The normals of a cloud's own channel: the source of NormalCosine. A neighbor whose normal is not finite has none.
 struct CloudNormals {
+  static constexpr Channel channel = Channel::normals;
   Float3Channel normals;  ///< the cloud's
   explicit CloudNormals(const CloudView& cloud) noexcept : normals(cloud.normals) {}
+  [[nodiscard]] static CloudNormals at(const CloudView& cloud, const KeyPoint&) noexcept { return CloudNormals(cloud); }
   [[nodiscard]] Status status() const noexcept { return normals.x != nullptr ? Status::ok : Status::missing_normals; }
   /// One register of normals by index.
-  [[nodiscard, gnu::always_inline]] PointLanes operator()(const std::uint32_t* index) const noexcept {
-    if constexpr (simd::lanes == 1) {
-      const Point n = read(normals, *index);
-      return {simd::all(n.x), simd::all(n.y), simd::all(n.z)};
+  [[nodiscard, gnu::always_inline]] extend::PointLanes operator()(const std::uint32_t* index) const noexcept {
+    if constexpr (extend::simd::lanes == 1) {
+      const Point n = extend::read(normals, *index);
+      return {extend::simd::all(n.x), extend::simd::all(n.y), extend::simd::all(n.z)};
     }
-    return read_lanes(normals, [index](std::size_t lane) { return std::size_t{index[lane]}; });
+    return extend::read_lanes(normals, [index](std::size_t lane) { return std::size_t{index[lane]}; });
   }
 };
 
-/// For descriptors without normals.
-struct NoNormals {
-  [[nodiscard]] static Status status() noexcept { return Status::ok; }
-};
-
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

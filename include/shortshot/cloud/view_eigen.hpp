@@ -10,9 +10,8 @@
 #include "../config.hpp"
 #include "cloud.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// Where component `c` of point 0 lies in a matrix whose points are its columns (3xN) or its rows (Nx3).
 template <class Matrix>
@@ -59,7 +58,11 @@ void add_channel(CloudView& view, const Channel& matrix) noexcept {
   if (Rows::count(matrix) != view.size) view = unusable_view();
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// View of float points: Matrix3Xf, MatrixX3f, row- or column-major, or a Map of them with any strides. Borrowed.
 ///
@@ -83,5 +86,5 @@ template <class Matrix, class... Channels>
 template <class... Matrices, class = std::enable_if_t<(detail::IsDyingMatrix<Matrices>::value || ...)>>
 CloudView view_eigen(Matrices&&... matrices) = delete;
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

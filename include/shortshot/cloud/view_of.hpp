@@ -2,7 +2,8 @@
 //
 // No other library is included: whatever has the members is understood. A point needs float x, y, z (in that or any
 // order, with any padding), for color one-byte r, g, b (in any order: PCL keeps b, g, r, a), and for a normal float
-// normal_x, normal_y, normal_z, which may also stand in structs of their own.
+// normal_x, normal_y, normal_z, which may also stand in structs of their own; for an intensity a float, a std::uint8_t
+// or a std::uint16_t of that name (pcl::PointXYZI).
 #pragma once
 
 #include <cstddef>
@@ -13,9 +14,8 @@
 #include "../config.hpp"
 #include "cloud.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 template <class P, class = void>
 struct HasRgb : std::false_type {};
@@ -30,6 +30,12 @@ struct HasNormal<P, std::void_t<decltype(P::normal_x), decltype(P::normal_y), de
     : std::bool_constant<std::is_same<std::remove_cv_t<decltype(P::normal_x)>, float>::value &&
                          std::is_same<std::remove_cv_t<decltype(P::normal_y)>, float>::value &&
                          std::is_same<std::remove_cv_t<decltype(P::normal_z)>, float>::value> {};
+
+template <class P, class = void>
+struct HasIntensity : std::false_type {};
+template <class P>
+struct HasIntensity<P, std::void_t<decltype(P::intensity)>>
+    : std::bool_constant<is_channel_scalar<std::remove_cv_t<decltype(P::intensity)>>> {};
 
 template <class C, class = void>
 struct HasPoints : std::false_type {};
@@ -61,9 +67,14 @@ template <class P>
   return {bytes_of(structs->normal_x), bytes_of(structs->normal_y), bytes_of(structs->normal_z), sizeof(P)};
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
 
-/// View of `count` structs with members x, y, z and, if they have them, r, g, b and normal_x, normal_y, normal_z.
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// View of `count` structs with members x, y, z and, if they have them, r, g, b; normal_x, normal_y, normal_z; and
+/// intensity.
 template <class P>
 [[nodiscard]] CloudView view_of(const P* points, std::size_t count) noexcept {
   static_assert(std::is_same<std::remove_cv_t<decltype(P::x)>, float>::value &&
@@ -74,12 +85,13 @@ template <class P>
   view.size = count;
   view.width = count;
   view.height = 1;
-  if (points == nullptr || count == 0) return view;  // to be refused by check()
+  if (points == nullptr || count == 0) return view;  // to be refused by validate()
   view.points = {detail::bytes_of(points->x), detail::bytes_of(points->y), detail::bytes_of(points->z), sizeof(P)};
   if constexpr (detail::HasRgb<P>::value) {
     view.colors = {detail::bytes_of(points->r), detail::bytes_of(points->g), detail::bytes_of(points->b), sizeof(P)};
   }
   if constexpr (detail::HasNormal<P>::value) view.normals = detail::normals_of(points, count);
+  if constexpr (detail::HasIntensity<P>::value) return with_intensities(view, &points->intensity, sizeof(P));
   return view;
 }
 
@@ -120,5 +132,5 @@ CloudView view_of(const Container&& cloud, const Normals& normals) = delete;
 template <class Container, class Normals, class = detail::IfContainer<Normals>>
 CloudView view_of(const Container& cloud, const Normals&& normals) = delete;
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -9,11 +9,12 @@
 #include "../status.hpp"
 #include "cloud.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// PointField datatypes that can be read in place.
+inline constexpr int field_uint8 = 2;
+inline constexpr int field_uint16 = 4;
 inline constexpr int field_uint32 = 6;
 inline constexpr int field_float32 = 7;
 
@@ -42,12 +43,34 @@ template <class Message>
   return -1;
 }
 
-}  // namespace detail
+/// The channel of a field `intensity` of FLOAT32, UINT8 or UINT16; absent if there is none.
+template <class Message>
+[[nodiscard]] ScalarChannel intensities_of(const Message& message, const unsigned char* data) noexcept {
+  for (const auto& field : message.fields) {
+    if (!is_named(field.name, "intensity")) continue;
+    const int type = static_cast<int>(field.datatype);
+    const bool readable = type == field_float32 || type == field_uint8 || type == field_uint16;
+    const std::uint64_t size_bytes = type == field_float32 ? 4 : type == field_uint16 ? 2 : 1;
+    const std::uint64_t end = static_cast<std::uint64_t>(field.offset) + size_bytes;
+    if (!readable || end > static_cast<std::uint64_t>(message.point_step)) return {};
+    const ScalarType scalar = type == field_float32  ? ScalarType::float32
+                              : type == field_uint16 ? ScalarType::uint16
+                                                     : ScalarType::uint8;
+    return {data + field.offset, static_cast<std::size_t>(message.point_step), scalar};
+  }
+  return {};
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// View of a message with members data (data(), size()), fields (name, offset, datatype), point_step, row_step, width,
 /// height and is_bigendian. Fields x, y, z must be FLOAT32; color is a field `rgb` or `rgba`, a FLOAT32 or UINT32 with
-/// 0xAARRGGBB packed into it; normals are FLOAT32 fields normal_x, normal_y, normal_z. The view borrows the message's
-/// bytes.
+/// 0xAARRGGBB packed into it; normals are FLOAT32 fields normal_x, normal_y, normal_z; an intensity is a FLOAT32,
+/// UINT8 or UINT16. The view borrows the message's bytes.
 ///
 /// Statuses: empty_cloud (no point); bad_view (and an empty view): no x, y or z of that type, a field outside
 /// point_step, data shorter than width * height points, padded rows, or the other byte order. No allocation.
@@ -82,6 +105,7 @@ template <class Message>
     const bool little = detail::is_little_endian();
     view.colors = {packed + (little ? 2 : 1), packed + (little ? 1 : 2), packed + (little ? 0 : 3), step};
   }
+  view.intensities = detail::intensities_of(message, data);
   const std::int64_t normal_x = detail::offset_of(message, "normal_x", false);
   const std::int64_t normal_y = detail::offset_of(message, "normal_y", false);
   const std::int64_t normal_z = detail::offset_of(message, "normal_z", false);
@@ -95,5 +119,5 @@ template <class Message>
 template <class Message>
 Status view_point_cloud2(const Message&& message, CloudView& view) = delete;
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

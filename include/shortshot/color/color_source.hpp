@@ -8,24 +8,60 @@
 
 #include "../base/simd.hpp"
 #include "../cloud/cloud.hpp"
+#include "../cloud/keypoint.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../status.hpp"
 #include "lab.hpp"
 #include "packed_lab.hpp"
 
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Where a source names the rule it converts by, is it this one?
+template <class Rule, class Source>
+constexpr bool has_rule(const typename Source::Rule*) noexcept {
+  return std::is_same<typename Source::Rule, Rule>::value;
+}
+template <class Rule, class Source>
+constexpr bool has_rule(...) noexcept {
+  return true;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
 namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+inline namespace SHORTSHOT_CODE {
 
 /// Colors of a cloud's points by index, and the key point's own: what a ColorDistance compares. This source converts
 /// every neighbor's bytes when it is asked: no memory per point.
 template <class LabRule>
 struct RgbColors {
+  static constexpr Channel channel = Channel::colors;
   using Rule = LabRule;
   ColorChannel bytes;  ///< the cloud's
   Lab reference;
   RgbColors(const CloudView& cloud, const Lab& color) noexcept : bytes(cloud.colors), reference(color) {}
   [[nodiscard]] Status status() const noexcept { return bytes.r != nullptr ? Status::ok : Status::missing_colors; }
-  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return to_lab<LabRule>(read(bytes, index)); }
+  [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept {
+    return to_lab<LabRule>(extend::read(bytes, index));
+  }
+
+  [[nodiscard]] static RgbColors at(const CloudView& cloud, const KeyPoint& key) noexcept {
+    RgbColors colors(cloud, to_lab<LabRule>(key.has_color ? key.color : Rgb{}));
+    if (!key.has_color) colors.bytes = {};
+    return colors;
+  }
+  /// May a source stand in for this one? StoredColors and whatever else gives a Lab by index may; if it says by which
+  /// rule its colors were converted, it must be this one.
+  template <class Source>
+  [[nodiscard]] static constexpr bool accepts() noexcept {
+    constexpr bool gives_colors = std::is_invocable_r<Lab, const Source&, std::uint32_t>::value;
+    static_assert(!gives_colors || detail::has_rule<LabRule, Source>(nullptr),
+                  "describe() supports colors converted by D's own rule");
+    return gives_colors;
+  }
 };
 
 /// The same from an array that holds each point's color, converted once for the whole cloud by convert_colors().
@@ -40,14 +76,15 @@ struct StoredColors {
 using LabColors = StoredColors<Lab>;           ///< 12 bytes a point
 using PackedColors = StoredColors<PackedLab>;  ///< 4 bytes a point; for its error see PackedLab
 
-/// For descriptors without color.
-struct NoColors {
-  [[nodiscard]] static Status status() noexcept { return Status::ok; }
-};
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::extend {
+inline namespace SHORTSHOT_CODE {
 
 /// One register of colors by index.
 template <class Colors>
-[[nodiscard]] inline LabLanes colors_at(const Colors& colors, const std::uint32_t* index) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE LabLanes colors_at(const Colors& colors, const std::uint32_t* index) noexcept {
   if constexpr (simd::lanes == 1) return in_all_lanes(colors(*index));
   float lanes[3][simd::lanes];
   for (std::size_t k = 0; k < simd::lanes; ++k) {
@@ -59,17 +96,21 @@ template <class Colors>
   return {simd::load(lanes[0]), simd::load(lanes[1]), simd::load(lanes[2])};
 }
 
-[[nodiscard]] inline LabLanes colors_at(const LabColors& colors, const std::uint32_t* index) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE LabLanes colors_at(const LabColors& colors, const std::uint32_t* index) noexcept {
   LabLanes lab;
   simd::load_triples(&colors.lab->L, index, lab.L, lab.a, lab.b);
   return lab;
 }
 
-[[nodiscard]] inline LabLanes colors_at(const PackedColors& colors, const std::uint32_t* index) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE LabLanes colors_at(const PackedColors& colors, const std::uint32_t* index) noexcept {
   return PackedLab::at(colors.lab, index);
 }
 
-namespace detail {
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// Colors [begin, end) of a cloud, each converted by convert(rgb).
 template <class Convert, class Color>
@@ -78,31 +119,22 @@ inline void convert_range(const CloudView& cloud, std::size_t begin, std::size_t
   for (std::size_t i = begin; i < end; ++i) lab[i] = convert(color(cloud, i));
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// Convert all colors of a cloud into `lab`: cloud.size elements of the caller's, each a Lab or a PackedLab. Statuses:
 /// empty_cloud, bad_view, missing_colors. No allocation.
 template <class LabRule, class Color>
 [[nodiscard]] inline Status convert_colors(const CloudView& cloud, Color* lab) noexcept {
-  const Status usable = check(cloud);
+  const Status usable = validate(cloud);
   if (usable != Status::ok) return usable;
   if (!has_colors(cloud)) return Status::missing_colors;
   detail::convert_range(cloud, 0, cloud.size, to_lab<LabRule>, lab);
   return Status::ok;
 }
 
-namespace detail {
-
-/// Where a color source names the rule it converts by, it must be the descriptor's.
-template <class D, class Colors>
-constexpr bool has_rule_of(const typename Colors::Rule*) noexcept {
-  return !D::needs_colors || std::is_same<typename Colors::Rule, typename D::LabRule>::value;
-}
-template <class D, class Colors>
-constexpr bool has_rule_of(...) noexcept {
-  return true;
-}
-
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -9,13 +9,12 @@
 #include "../base/unroll.hpp"
 #include "../config.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// t^p of a fixed p below 1/2, for t from 2^-7 up to 2. With t = m 2^e, m from 1/2 to 1, and z = m - 1:
 /// t^p = (1 + z (c0 + z (c1 + ... + z c9))) 2^(e p).
-struct Root {
+struct FixedPower {
   std::int32_t fit[10];     ///< c0 to c9 in units of 2^-32: ((1 + z)^p - 1) / z at Chebyshev nodes
   std::uint32_t octave[8];  ///< 2^(e p) in units of 2^-31, from e = -6 on
 
@@ -31,7 +30,7 @@ struct Root {
   /// Within 2e-9 before it is rounded to float, once: of the 3965 numbers k / 4000 that CIELAB asks for, all but 18 are
   /// the float that is closest, and those are the next one.
   [[nodiscard]] float operator()(float t) const noexcept {
-    return rounded(static_cast<float>(fixed(math::bits_of(t))) * (1.0f / 2147483648.0f));
+    return unfused(static_cast<float>(fixed(math::bits_of(t))) * (1.0f / 2147483648.0f));
   }
 
  private:
@@ -40,17 +39,16 @@ struct Root {
   }
 };
 
-inline constexpr Root cube_root{
+inline constexpr FixedPower cube_root{
     {1431655764, -477219117, 265086957, -177611235, 118766867, -177798683, -243108994, -883031911, -1088405058,
      -784821837},
     {536870912u, 676414963u, 852229450u, 1073741824u, 1352829926u, 1704458901u, 2147483648u, 2705659852u}};
 
 /// t^0.3333, as the published SSH / SCSH code has it.
-inline constexpr Root published_root{
+inline constexpr FixedPower published_root{
     {1431512598, -477195254, 265079000, -177608167, 118765444, -177800906, -243118475, -883057088, -1088438257,
      -784843915},
     {536945343u, 676493110u, 852308217u, 1073816253u, 1352892442u, 1704498283u, 2147483648u, 2705597339u}};
 
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

@@ -17,20 +17,20 @@
 #include "srgb.hpp"
 
 namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
 
 /// CIELAB color: L in 0..100 (-16 for PclLab's white), a and b clamped to -120..120 as both existing codes do.
 struct Lab {
   float L, a, b;
 };
 
-inline namespace SHORTSHOT_ISA {
 /// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
 struct PublishedLab {
   static constexpr const char* name = "published Lab";  ///< for layout_of()
   static constexpr bool leaves_gamut = false;           ///< are there sRGB colors beyond -120..120 in a or b?
   /// Of a CIE ratio, 0 to 1.
-  [[nodiscard]] static float root(float t) noexcept {
-    return t > 0.008856f ? detail::published_root(t) : rounded(7.787f * t) + 16.0f / 116.0f;
+  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept {
+    return t > 0.008856f ? detail::published_root(t) : extend::unfused(7.787f * t) + 16.0f / 116.0f;
   }
 };
 
@@ -38,8 +38,8 @@ struct PublishedLab {
 struct CshotLab {
   static constexpr const char* name = "CSHOT Lab";
   static constexpr bool leaves_gamut = false;
-  [[nodiscard]] static float root(float t) noexcept {
-    return t > 0.008856f ? detail::cube_root(t) : rounded(7.87f * t) + 16.0f / 116.0f;
+  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept {
+    return t > 0.008856f ? detail::cube_root(t) : extend::unfused(7.87f * t) + 16.0f / 116.0f;
   }
 };
 
@@ -48,10 +48,14 @@ struct CshotLab {
 struct PclLab {
   static constexpr const char* name = "PCL Lab";
   static constexpr bool leaves_gamut = true;
-  [[nodiscard]] static float root(float t) noexcept { return t < 1.0f ? CshotLab::root(t) : 0.0f; }
+  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept { return t < 1.0f ? CshotLab::root(t) : 0.0f; }
 };
 
-namespace detail {
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// A color without sRGB's gamma.
 struct LinearRgb {
@@ -71,7 +75,7 @@ inline constexpr float white_xyz[3] = {0.95047f, 1.0f, 1.08883f};
 /// tables.
 [[nodiscard]] constexpr int ratio_step(int ratio, const LinearRgb& rgb) noexcept {
   const float(&row)[3] = xyz_of_rgb[ratio];
-  const float sum = rounded(rgb.of[0] * row[0]) + rounded(rgb.of[1] * row[1]) + rounded(rgb.of[2] * row[2]);
+  const float sum = unfused(rgb.of[0] * row[0]) + unfused(rgb.of[1] * row[1]) + unfused(rgb.of[2] * row[2]);
   return static_cast<int>(sum / white_xyz[ratio] * 4000.0f);
 }
 
@@ -97,7 +101,7 @@ inline void lab_by(const Root& root, const Rgb& rgb, Lab& lab) noexcept {
   float f[3];
   each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { steps[k] = ratio_step(k, linear); });
   each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { f[k] = root(steps[k]); });
-  lab = {rounded(116.0f * f[1]) - 16.0f, rounded(500.0f * (f[0] - f[1])), rounded(200.0f * (f[1] - f[2]))};
+  lab = {unfused(116.0f * f[1]) - 16.0f, unfused(500.0f * (f[0] - f[1])), unfused(200.0f * (f[1] - f[2]))};
   if constexpr (Rule::leaves_gamut) {
     const auto clamp = [](float& value) { value = value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
     clamp(lab.a);
@@ -105,7 +109,11 @@ inline void lab_by(const Root& root, const Rgb& rgb, Lab& lab) noexcept {
   }
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// sRGB bytes to CIELAB by `Rule` (PublishedLab, CshotLab or PclLab). Source: what the published SSH / SCSH code and
 /// PCL 1.13 compute; within 1e-4 of either in L, a and b. No allocation, reentrant. LabTable (lab_table.hpp) gives the
@@ -117,26 +125,40 @@ template <class Rule>
   return lab;
 }
 
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::extend {
+inline namespace SHORTSHOT_CODE {
+
 /// Lanes of CIELAB colors.
 struct LabLanes {
   simd::F32 L, a, b;
 };
 
-[[nodiscard]] inline LabLanes in_all_lanes(const Lab& color) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE LabLanes in_all_lanes(const Lab& color) noexcept {
   return {simd::all(color.L), simd::all(color.a), simd::all(color.b)};
 }
 
-/// CSHOT's color distance in [0, 1]: (|dL| / 100 + (|da| / 120 + |db| / 120) / 2) / 3.
-[[nodiscard]] inline simd::F32 color_distances(const LabLanes& p, const LabLanes& q) noexcept {
+/// CSHOT's color distance, 0 to 1 for colors that sRGB has: (|dL| / 100 + (|da| / 120 + |db| / 120) / 2) / 3. NaN for
+/// somebody else's NaN.
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 color_distances(const LabLanes& p, const LabLanes& q) noexcept {
   using simd::all;
   const simd::F32 chroma = simd::abs(p.a - q.a) + simd::abs(p.b - q.b);
-  const simd::F32 distance = simd::abs(p.L - q.L) * all(1.0f / 300.0f) + chroma * all(1.0f / 720.0f);
-  return simd::min(distance, all(1.0f));  // 1 for somebody else's NaN, too
+  return simd::abs(p.L - q.L) * all(1.0f / 300.0f) + chroma * all(1.0f / 720.0f);
 }
 
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// The same of two colors, cut off at 1.
 [[nodiscard]] inline float color_distance(const Lab& p, const Lab& q) noexcept {
-  return simd::largest(color_distances(in_all_lanes(p), in_all_lanes(q)));
+  const extend::simd::F32 distances = extend::color_distances(extend::in_all_lanes(p), extend::in_all_lanes(q));
+  return extend::simd::largest(extend::simd::min(distances, extend::simd::all(1.0f)));
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

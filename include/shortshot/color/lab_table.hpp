@@ -9,7 +9,7 @@
 #include "lab.hpp"
 
 namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+inline namespace SHORTSHOT_CODE {
 
 /// What to_lab<Rule>() gives, bit for bit: the roots are the same ones, taken once for each of the 4001 steps that a
 /// ratio can have. 16 KB; filling it costs as much as to_lab() of 1300 colors.
@@ -33,5 +33,5 @@ class LabTable {
   std::vector<float> roots_;
 };
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -10,7 +10,7 @@
 #include "lab.hpp"
 
 namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+inline namespace SHORTSHOT_CODE {
 
 /// A third of Lab's memory. L has 11 bits, a has 10 and b has 11, in steps that just cover what sRGB colors have (L
 /// 0..100, a -86.3..98.3, b -108..94.6; anything else, as PclLab's white, is clamped to about that). 0 and 100 of L and
@@ -24,23 +24,23 @@ class PackedLab {
  public:
   PackedLab() = default;
   PackedLab(const Lab& color) noexcept  // NOLINT: converts like a number
-      : bits_(code(rounded(color.L * 20.0f), 2000.0f) |
-              code(rounded((color.a + 90.0f) * (1.0f / a_step)), 1023.0f) << 11 |
-              code(rounded((color.b + 108.875f) * (1.0f / b_step)), 2047.0f) << 21) {}
+      : bits_(code(extend::unfused(color.L * 20.0f), 2000.0f) |
+              code(extend::unfused((color.a + 90.0f) * (1.0f / a_step)), 1023.0f) << 11 |
+              code(extend::unfused((color.b + 108.875f) * (1.0f / b_step)), 2047.0f) << 21) {}
 
   operator Lab() const noexcept {  // NOLINT: converts like a number
-    return {rounded(static_cast<float>(bits_ & 2047u) * 0.05f),
-            rounded(static_cast<float>(bits_ >> 11 & 1023u) * a_step) - 90.0f,
-            rounded(static_cast<float>(bits_ >> 21) * b_step) - 108.875f};
+    return {extend::unfused(static_cast<float>(bits_ & 2047u) * 0.05f),
+            extend::unfused(static_cast<float>(bits_ >> 11 & 1023u) * a_step) - 90.0f,
+            extend::unfused(static_cast<float>(bits_ >> 21) * b_step) - 108.875f};
   }
 
   /// The colors at lab[index[k]], for all lanes: what operator Lab gives.
-  [[nodiscard]] static LabLanes at(const PackedLab* lab, const std::uint32_t* index) noexcept {
-    using simd::all;
-    using simd::all_int;
-    std::uint32_t packed[simd::lanes];
-    for (std::size_t k = 0; k < simd::lanes; ++k) packed[k] = lab[index[k]].bits_;
-    const simd::I32 bits = simd::load(packed);
+  [[nodiscard]] static extend::LabLanes at(const PackedLab* lab, const std::uint32_t* index) noexcept {
+    using extend::simd::all;
+    using extend::simd::all_int;
+    std::uint32_t packed[extend::simd::lanes];
+    for (std::size_t k = 0; k < extend::simd::lanes; ++k) packed[k] = lab[index[k]].bits_;
+    const extend::simd::I32 bits = extend::simd::load(packed);
     return {to_float(bits & all_int(2047)) * all(0.05f),
             to_float(shift_right(bits, 11) & all_int(1023)) * all(a_step) - all(90.0f),
             to_float(shift_right(bits, 21) & all_int(2047)) * all(b_step) - all(108.875f)};
@@ -60,5 +60,5 @@ class PackedLab {
   std::uint32_t bits_;
 };
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -13,9 +13,8 @@
 #include "../config.hpp"
 #include "fixed_power.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// n-th root by Newton's iteration, for tables that are built while compiling; never called at run time.
 constexpr double nth_root(double value, int n) noexcept {
@@ -61,7 +60,7 @@ constexpr std::array<float, 256> make_srgb_to_linear() noexcept {
 
 inline constexpr std::array<float, 256> srgb_to_linear = make_srgb_to_linear();
 
-inline constexpr Root srgb_root{
+inline constexpr FixedPower srgb_root{
     {1717987336, -515393476, 275016773, -175895406, 155978275, 49167834, 531163086, 686271253, 616103588, 0},
     {406871906u, 536870735u, 708405228u, 934746364u, 1233405304u, 1627488163u, 2147483648u, 2833621849u}};
 
@@ -77,7 +76,7 @@ inline constexpr Root srgb_root{
   const auto digits = static_cast<float>(high << zeros | static_cast<std::uint32_t>(product) >> (32 - zeros));
   // Times 2^(2 e - zeros - 31), where base is less than 2^e.
   const int exponent = 2 * (static_cast<int>(bits >> 23) - 126) - zeros - 31;
-  return rounded(digits * math::float_of(static_cast<std::uint32_t>(exponent + 127) << 23));
+  return unfused(digits * math::float_of(static_cast<std::uint32_t>(exponent + 127) << 23));
 }
 
 /// A byte without sRGB's gamma, 0 to 1.
@@ -87,6 +86,5 @@ inline constexpr Root srgb_root{
   return c > 0.04045f ? small_srgb_power((c + 0.055f) / 1.055f) : c / 12.92f;
 }
 
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

@@ -5,8 +5,8 @@
 
 #include "../config.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+namespace shortshot::extend {
+inline namespace SHORTSHOT_TYPES {
 
 /// What lies beyond the last cell of an axis: nothing (radius, elevation, signal) or the first cell (azimuth).
 enum class Beyond : std::uint8_t { nothing, first_cell };
@@ -26,9 +26,13 @@ struct Axis {
   std::int8_t bits;
 
   /// A whole cell, and the whole axis.
-  [[nodiscard]] constexpr float one() const noexcept { return static_cast<float>(std::int32_t{1} << bits); }
-  [[nodiscard]] constexpr float length() const noexcept { return static_cast<float>(cells) * one(); }
+  [[nodiscard, gnu::always_inline]] constexpr float one() const noexcept {
+    return static_cast<float>(std::int32_t{1} << bits);
+  }
+  [[nodiscard, gnu::always_inline]] constexpr float length() const noexcept {
+    return static_cast<float>(cells) * one();
+  }
 };
 
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::extend

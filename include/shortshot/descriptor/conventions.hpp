@@ -1,74 +1,148 @@
-// shortshot/descriptor/conventions.hpp: the conventions of cells: where they begin, on which side a border lies, how
-// they are laid out.
+// shortshot/descriptor/conventions.hpp: the conventions of cells: who is described, where cells begin, on which side a
+// border lies, how cells are laid out.
 //
-// There are two: that of the published SSH / SCSH code and that of SHOT as PCL computes it. A descriptor has one.
+// There are two: that of the published SSH / SCSH code and that of SHOT as PCL computes it. A descriptor has one. A
+// convention owns its positions: the kernel asks it, and knows none of its rules.
 #pragma once
 
 #include <cstdint>
 
+#include "../base/math.hpp"
 #include "../base/simd.hpp"
+#include "../cloud/point_lanes.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
+#include "../search/neighborhood.hpp"
+#include "../search/radius.hpp"
 #include "axis.hpp"
+#include "exact_shells.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+namespace shortshot::extend {
+inline namespace SHORTSHOT_TYPES {
 
 /// Distances of neighboring cells in a grid's layout, in cells.
 struct CellStrides {
   int radial, elevation, azimuth;
 };
 
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::extend
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
 /// The cells of the published SSH / SCSH code: elevation from the frame's +z down, a border belongs to the cell above
 /// it, radius is laid out fastest and azimuth slowest, and a histogram has bins of equal width.
 struct PublishedCells {
   static constexpr const char* name = "published cells";  ///< for layout_of()
+
   template <class Grid>
-  static constexpr CellStrides strides{1, Grid::radial, Grid::radial* Grid::elevation};
+  static constexpr extend::CellStrides strides{1, Grid::radial, Grid::radial* Grid::elevation};
   /// Values of a histogram of a signal's `bins`.
-  [[nodiscard]] static constexpr int values(int bins) noexcept { return bins; }
+  [[nodiscard, gnu::always_inline]] static constexpr int values(int bins) noexcept { return bins; }
+  /// What positions below zero mean on the azimuth axis.
+  static constexpr extend::BelowZero azimuth_below_zero = extend::BelowZero::never;
+  /// Distances on the borders of shells, multiples of R / borders, are those that double precision gives.
+  [[nodiscard, gnu::always_inline]] static constexpr int exact_borders(int borders) noexcept { return borders; }
 
-  /// Neighbors with a squared distance up to this one are taken for the key point's copies.
-  static constexpr float copies_d2 = 1e-15f;
-  /// Fewest neighbors, the key point and its copies included.
-  static constexpr std::uint32_t min_neighbors = 0;
-  /// Distances on the borders of shells are those that double precision gives.
-  static constexpr bool has_exact_shells = true;
-  /// A neighbor on the frame's z axis has no azimuth.
-  static constexpr bool has_poles = false;
+  /// Are there neighbors enough to describe?
+  template <class Neighbors>
+  [[nodiscard, gnu::always_inline]] static bool has_enough(const Neighbors&, Radius) noexcept {
+    return true;
+  }
+  /// Which neighbors are described: all but the key point and its copies.
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::Mask are_described(extend::simd::F32 d2, Radius radius) noexcept {
+    return (d2 > extend::simd::all(1e-15f)) & (d2 < extend::simd::all(radius.squared));
+  }
 
-  /// Where an angle from +z (over pi) lies along the elevation axis, both 0..1.
-  [[nodiscard]] static simd::F32 elevation(simd::F32 from_top) noexcept { return from_top; }
-  /// From numbers of cells, times the axis' unit, to fixed-point positions on grid axes.
-  [[nodiscard]] static simd::I32 position(simd::F32 scaled) noexcept { return truncate_to_int(scaled); }
-  /// Does a signal, 0..1, have its place on the histogram's axis as a coordinate has on an axis of the grid?
-  static constexpr bool bins_are_cells = true;
+  /// Coordinates 0, 1 and 2 of neighbors: distance over the radius, angle from +z over pi, and the angle from -x,
+  /// counter-clockwise, in turns; all 0..1.
+  template <bool Exact>
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 distance(extend::simd::F32 d2,
+                                                                   const extend::PointLanes& local, Radius radius,
+                                                                   float borders) noexcept {
+    if constexpr (Exact) return detail::exact_distance(d2, local, radius, borders);
+    return extend::simd::sqrt(d2) * extend::simd::all(1.0f / radius.value);
+  }
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 azimuth(const extend::PointLanes& local,
+                                                                  extend::simd::F32) noexcept {
+    return extend::math::azimuth(local.x, local.y);
+  }
+
+  /// Where a coordinate, or the value of a signal (k = 3), lies along axis `k`, in the axis' fixed-point unit.
+  template <class Scale>
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 position(const extend::Axis& axis, int k,
+                                                                   extend::simd::F32 coordinate) noexcept {
+    if constexpr (!Scale::is_linear) {
+      if (k == 0) return truncate_to_int(Scale::position(axis, coordinate));
+    }
+    return truncate_to_int(coordinate * extend::simd::all(axis.length()));
+  }
 };
 
 /// The cells of SHOT and CSHOT in PCL 1.13: elevation from the frame's -z up, a border belongs to the cell below it (a
 /// neighbor at R / 2 to the inner shell, one at z = 0 to the lower half), histograms fastest, then elevation, radius
-/// and azimuth, and one value more than a histogram has bins, because those are the distances of their middles.
+/// and azimuth, and one value more than a histogram has bins, because those are the distances of their middles. (The
+/// field's words: azimuth cells are sectors, a histogram of cosines is a local histogram.) A neighbor on the frame's z
+/// axis has no azimuth.
 struct ShotCells {
   static constexpr const char* name = "SHOT cells";
+
   template <class Grid>
-  static constexpr CellStrides strides{Grid::elevation, 1, Grid::radial* Grid::elevation};
-  [[nodiscard]] static constexpr int values(int bins) noexcept { return bins + 1; }
+  static constexpr extend::CellStrides strides{Grid::elevation, 1, Grid::radial* Grid::elevation};
+  [[nodiscard, gnu::always_inline]] static constexpr int values(int bins) noexcept { return bins + 1; }
+  static constexpr extend::BelowZero azimuth_below_zero = extend::BelowZero::nowhere;
+  [[nodiscard, gnu::always_inline]] static constexpr int exact_borders(int) noexcept { return 1; }
 
-  static constexpr float copies_d2 = 1e-30f;
-  static constexpr std::uint32_t min_neighbors = 5;
-  static constexpr bool has_exact_shells = false;
-  static constexpr bool has_poles = true;
-
-  [[nodiscard]] static simd::F32 elevation(simd::F32 from_top) noexcept { return simd::all(1.0f) - from_top; }
-  [[nodiscard]] static simd::I32 position(simd::F32 scaled) noexcept {
-    return truncate_to_int(simd::max(scaled, simd::all(1.0f))) - simd::all_int(1);
+  /// Five within the radius, the key point and its copies included.
+  template <class Neighbors>
+  [[nodiscard]] static bool has_enough(const Neighbors& n, Radius radius) noexcept {
+    std::uint32_t missing = 5;
+    for (std::uint32_t i = 0; i < n.size; ++i) {
+      if (extend::neighbor_at(n, i).d2 < radius.squared && --missing == 0) return true;
+    }
+    return false;
   }
-  static constexpr bool bins_are_cells = false;
-  /// From a signal to its place on the histogram's axis.
-  [[nodiscard]] static simd::I32 bin_position(const Axis& axis, simd::F32 signal) noexcept {
-    const std::int32_t middle = std::int32_t{1} << (axis.bits - 1);
-    return truncate_to_int(signal * simd::all(static_cast<float>(axis.cells - 1) * axis.one())) + simd::all_int(middle);
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::Mask are_described(extend::simd::F32 d2, Radius radius) noexcept {
+    return (d2 > extend::simd::all(1e-30f)) & (d2 < extend::simd::all(radius.squared));
+  }
+
+  template <bool>
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 distance(extend::simd::F32 d2, const extend::PointLanes&,
+                                                                   Radius radius, float) noexcept {
+    return extend::simd::sqrt(d2) * extend::simd::all(1.0f / radius.value);
+  }
+  /// Below 0 on the z axis.
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 azimuth(const extend::PointLanes& local,
+                                                                  extend::simd::F32 from_axis) noexcept {
+    const extend::simd::F32 angle = extend::math::azimuth(local.x, local.y);
+    return select(from_axis > extend::simd::all(0.0f), angle, extend::simd::all(-1.0f));
+  }
+
+  template <class Scale>
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 position(const extend::Axis& axis, int k,
+                                                                   extend::simd::F32 coordinate) noexcept {
+    using namespace extend;
+    if (k == 3) {
+      const std::int32_t middle = std::int32_t{1} << (axis.bits - 1);
+      return truncate_to_int(coordinate * simd::all(static_cast<float>(axis.cells - 1) * axis.one())) +
+             simd::all_int(middle);
+    }
+    if constexpr (!Scale::is_linear) {
+      if (k == 0) return of_scaled(Scale::position(axis, coordinate));
+    }
+    const simd::F32 along = k == 1 ? simd::all(1.0f) - coordinate : coordinate;
+    const simd::I32 position = of_scaled(along * simd::all(axis.length()));
+    if (k == 2) return invert(is_negative(bits_of(coordinate)), position);  // 0 to -1: nowhere
+    return position;
+  }
+
+ private:
+  /// A border belongs to the cell below it.
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 of_scaled(extend::simd::F32 scaled) noexcept {
+    return truncate_to_int(extend::simd::max(scaled, extend::simd::all(1.0f))) - extend::simd::all_int(1);
   }
 };
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot

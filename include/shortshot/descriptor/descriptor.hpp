@@ -5,52 +5,18 @@
 #include <cstddef>
 #include <type_traits>
 
-#include "../color/lab.hpp"
+#include "../cloud/cloud.hpp"
 #include "../config.hpp"
 #include "axis.hpp"
+#include "concepts.hpp"
 #include "conventions.hpp"
+#include "signals.hpp"
+#include "source_set.hpp"
 #include "spherical_grid.hpp"
 #include "voting.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-
-/// Signal of SSH: none. Every point counts as one, a cell holds a plain sum.
-struct Occupancy {
-  static constexpr const char* name = "occupancy";  ///< for layout_of()
-  static constexpr bool has_histogram = false;
-  static constexpr int bins = 1;
-  static constexpr bool needs_colors = false;
-  static constexpr bool needs_normals = false;
-  using Rule = void;  // no colors, no rule to convert them
-};
-
-/// Signal of SHOT: the cosine of the angle between a point's normal and the frame's z axis, -1 to 1, over `Bins` bins.
-template <int Bins>
-struct NormalCosine {
-  static_assert(Bins >= 1 && Bins <= 1023, "NormalCosine<Bins> supports 1 to 1023 histogram bins");
-  static constexpr const char* name = "normal cosine";
-  static constexpr bool has_histogram = true;
-  static constexpr int bins = Bins;
-  static constexpr bool needs_colors = false;
-  static constexpr bool needs_normals = true;
-  using Rule = void;
-};
-
-/// Signal of CSHOT and SCSH: the CIELAB distance between a point's color and the key point's, over `Bins` bins of
-/// equal width. `LabRule` is the color conversion (PublishedLab, CshotLab or PclLab).
-template <int Bins, class LabRule = PublishedLab>
-struct ColorDistance {
-  static_assert(Bins >= 1 && Bins <= 1024, "ColorDistance<Bins> supports 1 to 1024 histogram bins");
-  static constexpr const char* name = "color distance";
-  static constexpr bool has_histogram = true;
-  static constexpr int bins = Bins;
-  static constexpr bool needs_colors = true;
-  static constexpr bool needs_normals = false;
-  using Rule = LabRule;
-};
-
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
 
 /// The largest e such that positions up to any of these numbers of cells, times 2^e, are at most 2^30.
 template <class... Cells>
@@ -60,15 +26,24 @@ constexpr int position_bits(Cells... cells) noexcept {
   return bits;
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
 
 /// A spherical grid with a histogram of one signal in every cell.
 /// Layout: histogram bin fastest, then radius, elevation, azimuth (PublishedCells) or elevation, radius, azimuth
 /// (ShotCells).
 template <class GridType, class SignalType, class RadiusScale = LinearRadius, class CellConvention = PublishedCells>
 struct Part {
+  static_assert(
+      detail::IsSignal<SignalType>::value,
+      "Part<Grid, Signal> supports Occupancy, or a signal derived from extend::Signal<Bins, Kinds...> with "
+      "`static extend::simd::F32 measure(at, sources...)`, one source of each kind: see 'How to add a signal' "
+      "in include/shortshot/README.md");
   using Grid = GridType;
-  using Signal = SignalType;
+  using Signal = std::conditional_t<detail::IsSignal<SignalType>::value, SignalType, Occupancy>;  // one error is enough
   using Scale = RadiusScale;
   using Cells = CellConvention;
   static constexpr bool has_histogram = Signal::has_histogram;
@@ -76,8 +51,8 @@ struct Part {
   static constexpr int size = Grid::cells * values;
 
   /// Position of one value within the part.
-  [[nodiscard]] static constexpr int index(int r, int e, int a, int bin = 0) noexcept {
-    constexpr CellStrides cells = Cells::template strides<Grid>;
+  [[nodiscard, gnu::always_inline]] static constexpr int index(int r, int e, int a, int bin = 0) noexcept {
+    constexpr extend::CellStrides cells = Cells::template strides<Grid>;
     return bin + values * (r * cells.radial + e * cells.elevation + a * cells.azimuth);
   }
 
@@ -90,15 +65,20 @@ struct Part {
   /// there is one.
   static constexpr int axis_count = has_histogram ? 4 : 3;
   template <int Values>
-  static constexpr Axis axes[4] = {
-      {Grid::radial, Values* Cells::template strides<Grid>.radial, Beyond::nothing, Scale::below_zero, grid_bits},
-      {Grid::elevation, Values* Cells::template strides<Grid>.elevation, Beyond::nothing, BelowZero::never, grid_bits},
-      {Grid::azimuth, Values* Cells::template strides<Grid>.azimuth, Beyond::first_cell,
-       Cells::has_poles ? BelowZero::nowhere : BelowZero::never, grid_bits},
-      {values, 1, Beyond::nothing, BelowZero::never, bits}};
+  static constexpr extend::Axis axes[4] = {{Grid::radial, Values* Cells::template strides<Grid>.radial,
+                                            extend::Beyond::nothing, Scale::below_zero, grid_bits},
+                                           {Grid::elevation, Values* Cells::template strides<Grid>.elevation,
+                                            extend::Beyond::nothing, extend::BelowZero::never, grid_bits},
+                                           {Grid::azimuth, Values* Cells::template strides<Grid>.azimuth,
+                                            extend::Beyond::first_cell, Cells::azimuth_below_zero, grid_bits},
+                                           {values, 1, extend::Beyond::nothing, extend::BelowZero::never, bits}};
 };
 
-namespace detail {
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
 
 /// The rule by which all of a descriptor's color parts convert colors; void if it has none.
 template <class... Signals>
@@ -137,12 +117,21 @@ constexpr int common_multiple(int a, int b) noexcept {
   return multiple % b == 0 ? multiple : most;
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
 
 /// A descriptor: its parts one after the other, filled by one voting rule and normalized together to L2 norm 1.
 template <class VotingRule, class... Parts>
 struct Descriptor {
-  using Voting = VotingRule;
+  static_assert(
+      detail::IsVotingRule<VotingRule>::value,
+      "Descriptor<Voting, Parts...> supports a voting rule with weight_bits, votes<Axes>, split(axis, position, "
+      "unit) and combine<Axes>(axes, shares, unit): see 'How to add a voting rule' in "
+      "include/shortshot/README.md");
+  using Voting = std::conditional_t<detail::IsVotingRule<VotingRule>::value, VotingRule, HardVoting>;
   static_assert(sizeof...(Parts) >= 1, "Descriptor<Voting, Parts...> supports one or more parts");
 
   /// Number of floats, and of bytes when stored as floats.
@@ -150,8 +139,17 @@ struct Descriptor {
   static constexpr std::size_t size_bytes = sizeof(float) * static_cast<std::size_t>(size);
   static_assert(size <= 65536, "Descriptor supports up to 65536 values");
 
-  static constexpr bool needs_colors = (Parts::Signal::needs_colors || ...);
-  static constexpr bool needs_normals = (Parts::Signal::needs_normals || ...);
+  /// The kinds of sources that its signals read, each once, and whether a channel of the cloud is among them.
+  using Sources = typename detail::DistinctKinds<extend::SourceKinds<>, typename Parts::Signal::Sources...>::type;
+  [[nodiscard, gnu::always_inline]] static constexpr bool needs(Channel channel) noexcept {
+    return detail::reads_channel(Sources{}, channel);
+  }
+  static constexpr bool needs_colors = needs(Channel::colors);
+  static constexpr bool needs_normals = needs(Channel::normals);
+  static constexpr bool needs_intensities = needs(Channel::intensities);
+
+  /// The signals that are measured, each once.
+  using Signals = typename detail::Distinct<detail::SignalList<>, typename Parts::Signal...>::type;
   using LabRule = typename detail::LabRuleOf<typename Parts::Signal...>::type;
 
   using Cells = typename detail::FirstOf<typename Parts::Cells...>::type;
@@ -170,12 +168,12 @@ struct Descriptor {
   static constexpr int shell_borders = [] {
     int borders = 1;
     ((borders = detail::common_multiple(borders, Parts::Scale::borders(Parts::Grid::radial))), ...);
-    return Cells::has_exact_shells ? borders : 1;
+    return Cells::exact_borders(borders);
   }();
 
   /// First value of part `i` (of `parts` ones), and the end of the last part.
   static constexpr int parts = static_cast<int>(sizeof...(Parts));
-  [[nodiscard]] static constexpr int offset(int i) noexcept {
+  [[nodiscard, gnu::always_inline]] static constexpr int offset(int i) noexcept {
     constexpr int sizes[] = {Parts::size...};
     int sum = 0;
     for (int k = 0; k < i && k < parts; ++k) sum += sizes[k];
@@ -193,6 +191,13 @@ template <class ShapeGrid, class ColorGrid, int Bins, class Voting = PublishedVo
 using Scsh = Descriptor<Voting, Part<ShapeGrid, Occupancy, RadiusScale>,
                         Part<ColorGrid, ColorDistance<Bins, LabRule>, RadiusScale>>;
 
+/// How echoes of a lidar or a time-of-flight camera differ from the key point's, beside where points are: SSH on one
+/// grid, histograms of Intensity on another, as SCSH has them of color. Needs points and intensities.
+template <class ShapeGrid, class IntensityGrid, int Bins, class Voting = PublishedVoting,
+          class RadiusScale = LinearRadius>
+using IntensityShape =
+    Descriptor<Voting, Part<ShapeGrid, Occupancy, RadiusScale>, Part<IntensityGrid, Intensity<Bins>, RadiusScale>>;
+
 /// SHOT: histograms of how normals lean against the frame's z axis. Needs points and normals. `Bins` as PCL counts
 /// them: a histogram has one value more.
 template <class Grid, int Bins, class Voting = ShotVoting, class RadiusScale = LinearRadius>
@@ -208,6 +213,7 @@ using Ssh32 = Ssh<SphericalGrid<2, 2, 8>>;
 using Ssh96 = Ssh<SphericalGrid<3, 4, 8>>;
 using Scsh336 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;
 using Scsh696 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 6>, 25>;
+using IntensityShape336 = IntensityShape<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;
 
 /// SHOT and CSHOT in PCL's sizes and layout, without its two defects: the last bin of a histogram gets its neighbor's
 /// votes (PclVoting says what PCL does), and white has a color of its own (PclLab).
@@ -222,5 +228,5 @@ static_assert(Ssh32::size == 32 && Ssh96::size == 96 && Scsh336::size == 336 && 
                   Shot352::size == 352 && Cshot1344::size == 1344,
               "the published sizes");
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot

@@ -10,9 +10,8 @@
 #include "descriptor.hpp"
 #include "spherical_grid.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 template <class Policy, class = void>
 struct HasName : std::false_type {};
@@ -65,7 +64,11 @@ template <class Voting, class... Parts>
   return text;
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// What the values of descriptor D mean and how they are laid out, in English and in ASCII: its voting rule, its cell
 /// convention, and for each part its signal, histogram bins, color conversion, grid (radius x elevation x azimuth) and
@@ -82,5 +85,5 @@ template <class D>
   return detail::layout_text(static_cast<const D*>(nullptr));
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

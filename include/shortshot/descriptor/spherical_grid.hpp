@@ -10,7 +10,7 @@
 #include "axis.hpp"
 
 namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+inline namespace SHORTSHOT_TYPES {
 
 /// Divisions of the support sphere: `Radial` shells, `Elevation` cells between the frame's +z and -z, `Azimuth` cells
 /// counter-clockwise from the frame's -x. The paper's r, e, a (equation 5): n = r * e * a cells. How they are numbered
@@ -31,7 +31,7 @@ struct SphericalGrid {
 struct LinearRadius {
   static constexpr const char* name = "equal shells";  ///< for layout_of()
   static constexpr bool is_linear = true;
-  static constexpr BelowZero below_zero = BelowZero::never;
+  static constexpr extend::BelowZero below_zero = extend::BelowZero::never;
   /// All borders and middles of shells are multiples of 1 / borders.
   static constexpr int borders(int shells) noexcept { return 2 * shells; }
 };
@@ -44,24 +44,24 @@ struct LogRadius {
                 "LogRadius<N, D> supports ratios 0 < N / D <= 0.99");
   static constexpr const char* name = "logarithmic shells";
   static constexpr bool is_linear = false;
-  static constexpr BelowZero below_zero = BelowZero::first_cell;
+  static constexpr extend::BelowZero below_zero = extend::BelowZero::first_cell;
   static constexpr int borders(int) noexcept { return 1; }  // in float's own rounding
   /// Where `u`, the distance over the support radius, 0..1, lies along the axis.
-  [[nodiscard]] static simd::F32 position(const Axis& shells, simd::F32 u) noexcept {
+  [[nodiscard]] static extend::simd::F32 position(const extend::Axis& shells, extend::simd::F32 u) noexcept {
     const float shell = shells.one();
-    const float log_of_ratio = math::log(static_cast<float>(Numerator) / static_cast<float>(Denominator));
-    return simd::apply(
+    const float log_of_ratio = extend::math::log(static_cast<float>(Numerator) / static_cast<float>(Denominator));
+    return extend::simd::map(
         [=](float distance) {
           // Distances below the smallest normal number have no logarithm; any tiny one lies in the innermost shell.
-          const float log_of_distance = math::log(distance > 1e-30f ? distance : 1e-30f);
+          const float log_of_distance = extend::math::log(distance > 1e-30f ? distance : 1e-30f);
           const float p =
               static_cast<float>(shells.cells - 1) * (log_of_distance - log_of_ratio) / -log_of_ratio + 1.0f;
           // Below zero, what counts is the rest of a shell: the cell is the innermost one anyway.
-          return rounded((p < 0.0f ? p - static_cast<float>(static_cast<int>(p)) : p) * shell);
+          return extend::unfused((p < 0.0f ? p - static_cast<float>(static_cast<int>(p)) : p) * shell);
         },
         u);
   }
 };
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot

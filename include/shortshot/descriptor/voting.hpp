@@ -14,8 +14,8 @@
 #include "../config.hpp"
 #include "axis.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+namespace shortshot::extend {
+inline namespace SHORTSHOT_TYPES {
 
 /// The fixed-point unit of all votes: `one`, a power of two, is a whole share. A rule may count twice as much for it;
 /// its `weight_bits` say how much that makes of a point: less than 2^weight_bits units, or just as much.
@@ -23,6 +23,9 @@ struct VoteUnit {
   int bits;
   std::int32_t one;
 };
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
 
 /// A point's share along one axis.
 struct Share {
@@ -38,7 +41,11 @@ struct Votes {
   simd::I32 weight[Count];
 };
 
-namespace detail {
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// The cell of a position. The very end of the axis is the upper border of the last cell.
 [[nodiscard]] SHORTSHOT_INLINE simd::I32 cell_of(const Axis& axis, simd::I32 position) noexcept {
@@ -112,7 +119,11 @@ template <int Axes>
   return sum;
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
 
 /// The additive rule of the published SSH / SCSH code: the shares of all axes ADD UP in the primary cell, and each
 /// axis' partner gets the same sum with that axis' share replaced by the partner's. At most 1 + N cells a point, no
@@ -129,29 +140,31 @@ struct AdditiveVoting {
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
-  [[nodiscard]] SHORTSHOT_INLINE static Share split(const Axis& axis, simd::I32 position,
-                                                    const VoteUnit& unit) noexcept {
-    simd::I32 fraction = position & simd::all_int((std::int32_t{1} << axis.bits) - 1);
-    if (axis.below_zero != BelowZero::never) {
-      const simd::Mask below = is_negative(position);
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
+                                                            const extend::VoteUnit& unit) noexcept {
+    extend::simd::I32 fraction = position & extend::simd::all_int((std::int32_t{1} << axis.bits) - 1);
+    if (axis.below_zero != extend::BelowZero::never) {
+      const extend::simd::Mask below = is_negative(position);
       fraction = keep(below, position) + drop(below, fraction);
     }
     return detail::share(axis, detail::cell_of(axis, position), fraction, unit, false);
   }
 
   template <int Axes>
-  [[nodiscard]] SHORTSHOT_INLINE static Votes<Axes + 1> combine(const Axis (&axes)[4], const Share (&shares)[4],
-                                                                const VoteUnit& unit) noexcept {
-    using simd::all_int;
-    const simd::I32 sum = all_int(Axes * unit.one) - simd::shift_right(detail::twice_all_partners<Axes>(shares), 1);
-    const simd::I32 rest = sum - all_int(unit.one);
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Votes<Axes + 1> combine(const extend::Axis (&axes)[4],
+                                                                        const extend::Share (&shares)[4],
+                                                                        const extend::VoteUnit& unit) noexcept {
+    using extend::simd::all_int;
+    const extend::simd::I32 sum =
+        all_int(Axes * unit.one) - extend::simd::shift_right(detail::twice_all_partners<Axes>(shares), 1);
+    const extend::simd::I32 rest = sum - all_int(unit.one);
 
-    Votes<Axes + 1> votes;
+    extend::Votes<Axes + 1> votes;
     votes.index[0] = detail::primary_index<Axes>(shares);
     votes.weight[0] = sum;
     detail::each<Axes>([&](auto i) {
       // A share 1 - p replaced by p.
-      simd::I32 weight = rest + shares[i].twice_partner;
+      extend::simd::I32 weight = rest + shares[i].twice_partner;
       if (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all_int(unit.one));
       votes.index[i + 1] = votes.index[0] + shares[i].step;
       votes.weight[i + 1] = detail::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
@@ -175,27 +188,28 @@ struct SeparateVoting {
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
-  [[nodiscard]] SHORTSHOT_INLINE static Share split(const Axis& axis, simd::I32 position,
-                                                    const VoteUnit& unit) noexcept {
-    Share share = detail::share_in_cell(axis, position, unit, true);
-    if (axis.below_zero == BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
-      const simd::Mask nowhere = is_negative(position);
-      share.twice_partner = drop(nowhere, share.twice_partner) + keep(nowhere, simd::all_int(2 * unit.one));
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
+                                                            const extend::VoteUnit& unit) noexcept {
+    extend::Share share = detail::share_in_cell(axis, position, unit, true);
+    if (axis.below_zero == extend::BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
+      const extend::simd::Mask nowhere = is_negative(position);
+      share.twice_partner = drop(nowhere, share.twice_partner) + keep(nowhere, extend::simd::all_int(2 * unit.one));
       share.step = drop(nowhere, share.step);
     }
     return share;
   }
 
   template <int Axes>
-  [[nodiscard]] SHORTSHOT_INLINE static Votes<Axes + 1> combine(const Axis (&axes)[4], const Share (&shares)[4],
-                                                                const VoteUnit& unit) noexcept {
-    using simd::all_int;
-    Votes<Axes + 1> votes;
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Votes<Axes + 1> combine(const extend::Axis (&axes)[4],
+                                                                        const extend::Share (&shares)[4],
+                                                                        const extend::VoteUnit& unit) noexcept {
+    using extend::simd::all_int;
+    extend::Votes<Axes + 1> votes;
     votes.index[0] = detail::primary_index<Axes>(shares);
     votes.weight[0] = all_int(2 * Axes * unit.one) - detail::twice_all_partners<Axes>(shares);
     detail::each<Axes>([&](auto i) {
-      const simd::I32 weight = shares[i].twice_partner;
-      simd::I32 index = votes.index[0] + shares[i].step;
+      const extend::simd::I32 weight = shares[i].twice_partner;
+      extend::simd::I32 index = votes.index[0] + shares[i].step;
       if (WrapLastBin && i == 3) {
         const std::int32_t last = axes[3].cells - 1;
         index = index - keep(shares[3].cell + shares[3].step == all_int(last), all_int(last));
@@ -218,15 +232,17 @@ struct HardVoting {
   template <int Axes>
   static constexpr int votes = 1;
 
-  [[nodiscard]] SHORTSHOT_INLINE static Share split(const Axis& axis, simd::I32 position, const VoteUnit&) noexcept {
-    using simd::all_int;
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
+                                                            const extend::VoteUnit&) noexcept {
+    using extend::simd::all_int;
     return {detail::times(detail::cell_of(axis, position), axis.stride), all_int(0), all_int(0)};
   }
 
   template <int Axes>
-  [[nodiscard]] SHORTSHOT_INLINE static Votes<1> combine(const Axis (&)[4], const Share (&shares)[4],
-                                                         const VoteUnit& unit) noexcept {
-    return {{detail::primary_index<Axes>(shares)}, {simd::all_int(unit.one)}};
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Votes<1> combine(const extend::Axis (&)[4],
+                                                                 const extend::Share (&shares)[4],
+                                                                 const extend::VoteUnit& unit) noexcept {
+    return {{detail::primary_index<Axes>(shares)}, {extend::simd::all_int(unit.one)}};
   }
 };
 
@@ -239,24 +255,25 @@ struct MultilinearVoting {
   template <int Axes>
   static constexpr int votes = 1 << Axes;
 
-  [[nodiscard]] SHORTSHOT_INLINE static Share split(const Axis& axis, simd::I32 position,
-                                                    const VoteUnit& unit) noexcept {
-    Share share = detail::share_in_cell(axis, position, unit, false);
-    share.twice_partner = drop(share.step == simd::all_int(0), share.twice_partner);
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
+                                                            const extend::VoteUnit& unit) noexcept {
+    extend::Share share = detail::share_in_cell(axis, position, unit, false);
+    share.twice_partner = drop(share.step == extend::simd::all_int(0), share.twice_partner);
     return share;
   }
 
   template <int Axes>
-  [[nodiscard]] SHORTSHOT_INLINE static Votes<(1 << Axes)> combine(const Axis (&)[4], const Share (&shares)[4],
-                                                                   const VoteUnit& unit) noexcept {
-    const simd::F32 half = simd::all(0.5f / static_cast<float>(unit.one));
-    Votes<(1 << Axes)> votes;
-    simd::F32 weight[1 << Axes];
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Votes<(1 << Axes)> combine(const extend::Axis (&)[4],
+                                                                           const extend::Share (&shares)[4],
+                                                                           const extend::VoteUnit& unit) noexcept {
+    const extend::simd::F32 half = extend::simd::all(0.5f / static_cast<float>(unit.one));
+    extend::Votes<(1 << Axes)> votes;
+    extend::simd::F32 weight[1 << Axes];
     votes.index[0] = detail::primary_index<Axes>(shares);
-    weight[0] = simd::all(static_cast<float>(unit.one));
+    weight[0] = extend::simd::all(static_cast<float>(unit.one));
     detail::unroll<Axes>([&](auto axis) {
       constexpr int count = 1 << decltype(axis)::value;
-      const simd::F32 partner = to_float(shares[axis].twice_partner) * half;
+      const extend::simd::F32 partner = to_float(shares[axis].twice_partner) * half;
       detail::unroll<count>([&](auto i) {
         votes.index[count + i] = votes.index[i] + shares[axis].step;
         weight[count + i] = weight[i] * partner;
@@ -268,5 +285,5 @@ struct MultilinearVoting {
   }
 };
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot

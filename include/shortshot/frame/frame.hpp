@@ -9,12 +9,16 @@
 #include "../base/symmetric_eigen.hpp"
 #include "../base/unfused.hpp"
 #include "../base/unroll.hpp"
+#include "../cloud/point_lanes.hpp"
 #include "../config.hpp"
 #include "../search/neighborhood.hpp"
+#include "../search/radius.hpp"
 #include "../status.hpp"
 #include "rank_by_distance.hpp"
+#include "viewpoint.hpp"
 
 namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
 
 /// A local reference frame: three orthonormal axes in the cloud's coordinates, right-handed. Trivial type.
 struct Frame {
@@ -23,28 +27,42 @@ struct Frame {
   float z[3];
 };
 
-inline namespace SHORTSHOT_ISA {
-
 /// Fewest neighbors (other than the key point and its copies) for a frame, as in PCL.
 inline constexpr int min_frame_neighbors = 5;
 
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::extend {
+inline namespace SHORTSHOT_CODE {
+
 [[nodiscard]] inline float dot(const float (&a)[3], const float (&b)[3]) noexcept {
-  return (rounded(a[0] * b[0]) + rounded(a[2] * b[2])) + rounded(a[1] * b[1]);
+  return (unfused(a[0] * b[0]) + unfused(a[2] * b[2])) + unfused(a[1] * b[1]);
 }
 
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
 /// Is this a frame one can describe in: finite, and orthonormal within 1e-3?
-[[nodiscard]] inline Status check(const Frame& frame) noexcept {
+[[nodiscard]] inline Status validate(const Frame& frame) noexcept {
   const float(*const axes[3])[3] = {&frame.x, &frame.y, &frame.z};
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k <= i; ++k) {
-      const float error = dot(*axes[i], *axes[k]) - (i == k ? 1.0f : 0.0f);
-      if (!math::is_finite(error) || !(error > -1e-3f && error < 1e-3f)) return Status::bad_frame;
+      const float error = extend::dot(*axes[i], *axes[k]) - (i == k ? 1.0f : 0.0f);
+      if (!extend::math::is_finite(error) || !(error > -1e-3f && error < 1e-3f)) return Status::bad_frame;
     }
   }
   return Status::ok;
 }
 
-namespace detail {
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// Members, those who make a frame, lie strictly inside its radius and not at the key point itself: the key point and
 /// its copies move no sum, but must not be counted.
@@ -85,7 +103,7 @@ struct MemberScale {
 
 [[nodiscard]] inline MemberScale member_scale(std::uint32_t n, float farthest_d2, Radius radius) noexcept {
   // Below 1e-19 m squares are lost to underflow: such members count as if they were at the key point.
-  const float root = simd::root(farthest_d2);
+  const float root = simd::sqrt(farthest_d2);
   const float farthest = root > 1e-19f ? root : 1e-19f;
   const float unit = 0.5f / math::power_of_two_below(farthest);
   // The largest w |v|^2 with w = 1 - |v| / R: at |v| = 2/3 R, or at the farthest member if that is closer.
@@ -182,7 +200,7 @@ template <class Neighbors>
   const EigenLanes eigen = decompose(weighted_scatter(n, radius, census.farthest_d2));
   // What float can tell apart, and what the rounding of the members to integers may have moved.
   const simd::F32 resolution =
-      simd::all(1e-6f) * eigen.value(2) + simd::all(rounded(0.5f * static_cast<float>(census.members)));
+      simd::all(1e-6f) * eigen.value(2) + simd::all(unfused(0.5f * static_cast<float>(census.members)));
   if (!any((eigen.value(2) - eigen.value(1) > resolution) & (eigen.value(1) - eigen.value(0) > resolution))) {
     return Status::ambiguous_frame;
   }
@@ -196,21 +214,25 @@ template <class Neighbors>
   if (towards != 0.0f) against.z = towards < 0.0f ? census.members : 0;  // a viewpoint that tells outvotes all members
   orient_by_vote(n, census.members, against.x, frame.x);
   orient_by_vote(n, census.members, against.z, frame.z);
-  frame.y[0] = rounded(frame.z[1] * frame.x[2]) - rounded(frame.z[2] * frame.x[1]);
-  frame.y[1] = rounded(frame.z[2] * frame.x[0]) - rounded(frame.z[0] * frame.x[2]);
-  frame.y[2] = rounded(frame.z[0] * frame.x[1]) - rounded(frame.z[1] * frame.x[0]);
+  frame.y[0] = unfused(frame.z[1] * frame.x[2]) - unfused(frame.z[2] * frame.x[1]);
+  frame.y[1] = unfused(frame.z[2] * frame.x[0]) - unfused(frame.z[0] * frame.x[2]);
+  frame.y[2] = unfused(frame.z[0] * frame.x[1]) - unfused(frame.z[1] * frame.x[0]);
   return Status::ok;
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// SHOT's local reference frame of a gathered neighborhood: x along the largest and z along the smallest principal
 /// axis of the members, weighted by R - |v| and centered on the key point, each turned towards the majority of the
 /// members; y = z cross x. Source: PCL 1.13's SHOTLocalReferenceFrameEstimation, its rule for ties included.
 ///
 /// `radius` is the frame's own; it may be smaller than the one the neighborhood was gathered with.
-/// `towards_viewpoint`, if not null, is a vector (3 floats, any length) from the key point to the camera: z is turned
-/// to it and only x by vote. Every depth camera knows it, and it makes frames more repeatable; null is SHOT.
+/// `viewpoint` turns z, and only x goes by vote: every depth camera knows where it is, and it makes frames more
+/// repeatable. Absent, it is SHOT's frame.
 ///
 /// Statuses: bad_radius; bad_viewpoint (not finite); too_many_neighbors (more than 2^24); too_few_neighbors (fewer than
 /// five members); ambiguous_frame (two principal axes equal within float resolution: collinear or symmetric
@@ -219,12 +241,12 @@ template <class Neighbors>
 /// the neighbors.
 template <class Neighbors>
 [[nodiscard]] inline Status estimate_frame(const Neighbors& n, Radius radius, Frame& frame,
-                                           const float* towards_viewpoint = nullptr) noexcept {
+                                           const Viewpoint& viewpoint = {}) noexcept {
   frame = Frame{};
   float view[3] = {};
-  const Status usable = detail::check_estimate(n, radius, towards_viewpoint, view);
+  const Status usable = detail::validate_estimate(n, radius, viewpoint, view);
   return usable == Status::ok ? detail::frame_of(n, radius, view, frame) : usable;
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -9,17 +9,24 @@
 #include "../base/symmetric_eigen.hpp"
 #include "../base/unroll.hpp"
 #include "../cloud/cloud.hpp"
+#include "../cloud/point_lanes.hpp"
 #include "../config.hpp"
 #include "../search/neighborhood.hpp"
+#include "../search/radius.hpp"
 #include "../status.hpp"
+#include "viewpoint.hpp"
 
 namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+inline namespace SHORTSHOT_TYPES {
 
 /// Fewest neighbors (the key point and its copies included) for a normal, as in PCL.
 inline constexpr std::uint32_t min_normal_neighbors = 3;
 
-namespace detail {
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// How members are brought to fixed point: coordinates times `unit`, which makes the farthest one at most 1 long; then
 /// they, and products of two of them, times `scale`.
@@ -41,7 +48,7 @@ template <class Neighbors>
     const simd::F32 d2 = load_neighbors(n, i).d2;
     farthest = simd::max(farthest, keep(d2 < simd::all(radius.squared), d2));
   }
-  const float root = simd::root(simd::largest(farthest));
+  const float root = simd::sqrt(simd::largest(farthest));
   return root > 1e-19f ? root : 1e-19f;
 }
 
@@ -132,7 +139,7 @@ template <class Neighbors>
 }
 
 /// One normal from each lane.
-inline void store(Normal* normals, const PointLanes& v) noexcept {
+inline void store(SurfaceNormal* normals, const PointLanes& v) noexcept {
   float components[3][simd::lanes];
   simd::store(components[0], v.x);
   simd::store(components[1], v.y);
@@ -142,37 +149,40 @@ inline void store(Normal* normals, const PointLanes& v) noexcept {
   }
 }
 
-[[nodiscard]] inline bool is_zero(const Normal& n) noexcept { return n.x == 0.0f && n.y == 0.0f && n.z == 0.0f; }
+[[nodiscard]] inline bool is_zero(const SurfaceNormal& n) noexcept { return n.x == 0.0f && n.y == 0.0f && n.z == 0.0f; }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// The normal of the plane through a gathered neighborhood: the direction in which the neighbors within `radius`
 /// scatter least about their centroid, the key point and its copies among them. Source: PCL 1.13's NormalEstimation.
 ///
 /// `radius` may be smaller than the one the neighborhood was gathered with.
-/// `towards_viewpoint`, if not null, is a vector (3 floats, any length) from the key point to the camera, to whose side
-/// the normal is turned. If it is null or at right angles to the normal, the sign is the solver's: arbitrary, but the
-/// same on every machine.
+/// `viewpoint` turns the normal. Where it is absent, or at right angles to the normal, the sign is the solver's:
+/// arbitrary, but the same on every machine.
 ///
 /// Statuses: bad_radius; bad_viewpoint (not finite); too_many_neighbors (more than 2^24); too_few_neighbors (fewer than
 /// three); ambiguous_frame (the two smaller extents are equal within float resolution: the neighbors lie on a line, or
 /// in one place). `normal` is zeroed then. No allocation, reentrant. The result does not depend on the order of the
 /// neighbors.
 template <class Neighbors>
-[[nodiscard]] inline Status estimate_normal(const Neighbors& n, Radius radius, const float* towards_viewpoint,
-                                            Normal& normal) noexcept {
-  normal = Normal{};
+[[nodiscard]] inline Status estimate_normal(const Neighbors& n, Radius radius, SurfaceNormal& normal,
+                                            const Viewpoint& viewpoint = {}) noexcept {
+  normal = SurfaceNormal{};
   float view[3] = {};
-  const Status usable = detail::check_estimate(n, radius, towards_viewpoint, view);
+  const Status usable = detail::validate_estimate(n, radius, viewpoint, view);
   if (usable != Status::ok) return usable;
 
-  const PointLanes towards{simd::all(view[0]), simd::all(view[1]), simd::all(view[2])};
-  const std::uint32_t members = count_within(n, radius);
+  const extend::PointLanes towards{extend::simd::all(view[0]), extend::simd::all(view[1]), extend::simd::all(view[2])};
+  const std::uint32_t members = extend::count_within(n, radius);
   if (members < min_normal_neighbors) return Status::too_few_neighbors;
   // In units of the radius; or, where the members fill too little of it, of the farthest one's distance.
   detail::MomentScale scale = detail::moment_scale(members, radius.value);
   detail::Moments moments = detail::moments_of(n, radius, scale);
-  Normal found[simd::lanes] = {};
+  SurfaceNormal found[extend::simd::lanes] = {};
   if (any(detail::is_fine(moments, scale))) detail::store(found, detail::normals_of(moments, scale, towards));
   if (detail::is_zero(found[0])) {
     scale = detail::moment_scale(members, detail::farthest_member(n, radius));
@@ -183,5 +193,5 @@ template <class Neighbors>
   return detail::is_zero(normal) ? Status::ambiguous_frame : Status::ok;
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -11,13 +11,15 @@
 #include "../config.hpp"
 #include "../search/neighborhood.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
 
 /// Where a neighbor stands in the order: by squared distance (bits of floats >= 0 order as the floats do), then by
 /// index in the cloud. The key point and its copies come first, at 0.
 using Place = std::uint64_t;
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
 
 template <class Neighbors>
 [[nodiscard]] inline Place place_at(const Neighbors& n, std::uint32_t i) noexcept {
@@ -56,6 +58,5 @@ template <class Neighbors>
   return place;
 }
 
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

@@ -10,33 +10,21 @@
 
 #include "../base/simd.hpp"
 #include "../base/unroll.hpp"
-#include "../color/color_source.hpp"
-#include "../color/lab.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
+#include "../descriptor/concepts.hpp"
 #include "../descriptor/descriptor.hpp"
 #include "../descriptor/voting.hpp"
 #include "to_spherical.hpp"
 #include "vote_shares.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
-
-/// Into a chunk: how far its neighbors' colors are from the key point's, 0..1.
-template <class Chunk, class Colors>
-inline void measure_colors(const Colors& source, Chunk& chunk) noexcept {
-  Collector<const Colors> colors = source;
-  const LabLanes reference = in_all_lanes(colors.reference);
-  float* const distances = chunk.rows + Chunk::color_row * std::size_t{Chunk::room};
-  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
-    simd::store(distances + i, color_distances(colors_at(colors, chunk.index + i), reference));
-  }
-}
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// Is vote `k` of a neighbor, to its partner along an axis of the grid, of the same weight for all parts on the grid?
 template <class Voting>
 constexpr bool is_shared(int k) noexcept {
-  return Voting::partners_get_own_share && 1 <= k && k <= 3;
+  return PartnersGetOwnShare<Voting>::value && 1 <= k && k <= 3;
 }
 
 /// The integers that votes are added to live in the caller's output array, bit for bit, until they are normalized: no
@@ -128,8 +116,14 @@ inline void scatter(std::uint32_t size, float* out, const Votes&... votes) noexc
   }
 }
 
+}  // namespace SHORTSHOT_CODE
+inline namespace SHORTSHOT_TYPES {
+
 /// The greatest common divisor.
 constexpr int common_divisor(int a, int b) noexcept { return b == 0 ? a : common_divisor(b, a % b); }
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
 
 /// One chunk into parts that have one grid: points are shared among its cells once for all of them. (`unit` is a copy,
 /// which no store can change.)
@@ -177,6 +171,16 @@ template <class Voting, class... Parts, std::size_t... I, class Chunk>
   }
 }
 
+/// The row of a chunk that has the signal of a part; 0 if the part has no histogram.
+template <class Part, class Chunk>
+constexpr int signal_row() noexcept {
+  if constexpr (Part::has_histogram) {
+    return Chunk::template row_of<typename Part::Signal>;
+  } else {
+    return 0;
+  }
+}
+
 /// The same of one part where code shall be small: this function for all parts with these rules. `signal` is the row of
 /// the part's signal, or 0 if it has no histogram.
 template <class Voting, class Cells, class Scale, class Chunk>
@@ -201,8 +205,7 @@ inline void accumulate_all(Descriptor<Voting, Parts...> descriptor, std::index_s
   using D = Descriptor<Voting, Parts...>;
   if constexpr (simd::lanes == 1 && small_code) {
     (add_points_of_part<Voting, typename Parts::Cells, typename Parts::Scale>(
-         chunk, Parts::template axes<Parts::values>, Parts::has_histogram ? signal_row<Parts, Chunk> : 0, unit,
-         out + D::offset(I)),
+         chunk, Parts::template axes<Parts::values>, signal_row<Parts, Chunk>(), unit, out + D::offset(I)),
      ...);
   } else if constexpr (simd::lanes == 1) {
     add_points(descriptor, parts, chunk, unit, out);
@@ -225,9 +228,8 @@ constexpr std::size_t scratch_bytes(Descriptor<Voting, Parts...>) noexcept {
   std::size_t most = 0;
   for (const std::size_t bytes : votes)
     most = HaveOneGrid<Parts...>::value ? most + bytes : most < bytes ? bytes : most;
-  return sizeof(Chunk<D::needs_normals, D::needs_colors, ChunkSize>) + (simd::lanes == 1 ? 0 : most);
+  return sizeof(Chunk<typename D::Signals, ChunkSize>) + (simd::lanes == 1 ? 0 : most);
 }
 
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

@@ -14,20 +14,19 @@
 #include "../base/fixed_point.hpp"
 #include "../base/simd.hpp"
 #include "../base/unroll.hpp"
-#include "../cloud/normal_source.hpp"
-#include "../color/color_source.hpp"
 #include "../config.hpp"
 #include "../descriptor/descriptor.hpp"
+#include "../descriptor/source_set.hpp"
 #include "../descriptor/voting.hpp"
 #include "../frame/frame.hpp"
 #include "../search/neighborhood.hpp"
+#include "../search/radius.hpp"
 #include "../status.hpp"
 #include "accumulate.hpp"
 #include "to_spherical.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// The finest unit in which the votes of `n` neighbors can be added up, and no finer than positions are.
 [[nodiscard]] inline VoteUnit vote_unit(std::uint32_t n, int position_bits, int weight_bits) noexcept {
@@ -55,52 +54,55 @@ namespace detail {
     std::int32_t sum = 0;
     std::memcpy(&sum, values + i, sizeof sum);
     values[i] = static_cast<float>(sum);
-    s[i % 8] += rounded(values[i] * values[i]);
+    s[i % 8] += unfused(values[i] * values[i]);
   }
 
   for (std::size_t count = 4; count > 0; count /= 2) {  // neighbors first
     for (std::size_t k = 0; k < count; ++k) s[k] = s[2 * k] + s[2 * k + 1];
   }
   if (!(s[0] > 0.0f)) return Status::too_few_neighbors;
-  const float inverse = 1.0f / simd::root(s[0]);
+  const float inverse = 1.0f / simd::sqrt(s[0]);
   for (int i = 0; i < whole; i += lanes) simd::store(values + i, simd::load(values + i) * simd::all(inverse));
   for (int i = whole; i < size; ++i) values[i] *= inverse;
   return Status::ok;
 }
 
-/// Do as many neighbors lie within a radius, the key point and its copies included?
-template <class Neighbors>
-[[nodiscard]] inline bool has_within(const Neighbors& n, Radius radius, std::uint32_t count) noexcept {
-  for (std::uint32_t i = 0; i < n.size; ++i) {
-    if (neighbor_at(n, i).d2 < radius.squared && --count == 0) return true;
-  }
-  return false;
-}
-
 /// describe() for what was checked before; `out` is all zeros. (Not inlined: its chunk need not be on the stack while
 /// the frame is estimated.)
-template <class D, std::uint32_t ChunkSize, class Neighbors, class Colors, class Normals>
-[[nodiscard, gnu::noinline]] inline Status describe_checked(const Neighbors& n, const Colors& colors,
-                                                            const Normals& normals, const Frame& frame, Radius radius,
-                                                            float* out) noexcept {
-  constexpr std::uint32_t fewest = D::Cells::min_neighbors;
-  if (fewest > 0 && !has_within(n, radius, fewest)) return Status::too_few_neighbors;
+template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
+[[nodiscard, gnu::noinline]] inline Status describe_checked(const Neighbors& n, const Sources& sources,
+                                                            const Frame& frame, Radius radius, float* out) noexcept {
+  using Signals = typename D::Signals;
+  if (!D::Cells::has_enough(n, radius)) return Status::too_few_neighbors;
   const VoteUnit unit = vote_unit(n.size, D::position_bits, D::Voting::weight_bits);
-  Chunk<D::needs_normals, D::needs_colors, ChunkSize> chunk;
+  const auto of_place = signals_of_place<Signals>(sources);
+  Chunk<Signals, ChunkSize> chunk;
   for (std::uint32_t i = 0; i * ChunkSize < n.size; ++i) {
     locate<typename D::Cells, (D::shell_borders > 1)>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
-                                                      D::shell_borders, normals, chunk);
-    if constexpr (D::needs_colors) measure_colors(colors, chunk);
+                                                      D::shell_borders, of_place, chunk);
+    measure_all_by_index(Signals{}, sources, chunk);
     accumulate_all(D{}, std::make_index_sequence<D::parts>{}, chunk, unit, out);
   }
   return normalize(out, D::size);
 }
 
-}  // namespace detail
+/// The first status that is not ok of those sources that D reads.
+template <class... Kinds, class Sources>
+[[nodiscard]] inline Status status_of(extend::SourceKinds<Kinds...>, const Sources& sources) noexcept {
+  Status status = Status::ok;
+  ((status = status == Status::ok ? source_of<Kinds>(sources).status() : status), ...);
+  return status;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// Neighbors that go through the kernel together: of that length are all arrays that it has on the stack. A template
 /// parameter of describe() and describe_at(), any multiple of simd::lanes: it changes speed and memory, no result.
-inline constexpr std::uint32_t default_chunk_size = simd::lanes == 1 ? 16 : 64;
+inline constexpr std::uint32_t default_chunk_size = extend::simd::lanes == 1 ? 16 : 64;
 
 /// Bytes of those arrays.
 template <class D, std::uint32_t ChunkSize = default_chunk_size>
@@ -109,44 +111,37 @@ inline constexpr std::size_t chunk_bytes = detail::scratch_bytes<ChunkSize>(D{})
 /// Describe a gathered neighborhood in a frame: the kernel of every descriptor.
 ///
 /// `n`        neighbors of one key point, gathered with at least `radius` (farther ones are left out); if they do not
-///            come from a search, d2 must be that of dx, dy and dz, and the indices must be ones that `colors` and
-///            `normals` have
-/// `colors`   a source of Lab by index (RgbColors, LabColors, your own like them), or NoColors if D needs none
-/// `normals`  CloudNormals, or NoNormals if D needs none; neighbors without a finite normal are left out
+///            come from a search, d2 must be that of dx, dy and dz, and the indices must be ones that the sources have
+/// `sources`  what D's signals read, in any order: sources(LabColors{...}, CloudNormals(cloud)), a source alone, or
+///            sources() if they read nothing. A neighbor for which one of them has no value is left out
 /// `frame`    an orthonormal frame: estimate_frame(), or one you know
 /// `out`      D::size floats: the parts of D in order, L2 norm 1
 ///
 /// Source: SSH and SCSH: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code.
 /// SHOT and CSHOT: PCL 1.13's SHOTEstimation and SHOTColorEstimation. The rules are in conventions.hpp and voting.hpp.
-/// Statuses: bad_radius, bad_frame, missing_colors, missing_normals, too_many_neighbors (over 2^24), too_few_neighbors
-/// (none to describe; for SHOT and CSHOT also fewer than five, the key point and its copies included); `out` is all
-/// zeros then, and never NaN. No allocation; reentrant; chunk_bytes<D, ChunkSize> of stack and half a kilobyte more.
-/// The result depends neither on the order of the neighbors nor on ChunkSize: what is done for a neighbor depends on
-/// no other, and sums are integers.
-template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors, class Colors, class Normals>
-[[nodiscard]] inline Status describe(const Neighbors& n, const Colors& colors, const Normals& normals,
-                                     const Frame& frame, Radius radius, float* out) noexcept {
-  static_assert(!D::needs_colors || !std::is_same<Colors, NoColors>::value,
-                "D has a color part: describe() supports RgbColors, LabColors or another source of Lab by index");
-  static_assert(!D::needs_normals || !std::is_same<Normals, NoNormals>::value,
-                "D has a part of normals: describe() supports CloudNormals or another source of normals by index");
-  static_assert(detail::has_rule_of<D, Colors>(nullptr), "describe() supports colors converted by D's own rule");
+/// Statuses: bad_radius, bad_frame, what the sources say (missing_colors, missing_normals, missing_intensities),
+/// too_many_neighbors (over 2^24), too_few_neighbors (none to describe; for SHOT and CSHOT also fewer than five, the
+/// key point and its copies included); `out` is all zeros then, and never NaN. No allocation; reentrant;
+/// chunk_bytes<D, ChunkSize> of stack and half a kilobyte more. The result depends neither on the order of the
+/// neighbors nor on ChunkSize: what is done for a neighbor depends on no other, and sums are integers.
+template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors, class... Own>
+[[nodiscard]] inline Status describe(const Neighbors& n, const extend::SourceSet<Own...>& sources, const Frame& frame,
+                                     Radius radius, float* out) noexcept {
   std::memset(out, 0, D::size_bytes);
-  Status status = check(radius);
-  if (status == Status::ok) status = check(frame);
-  if (status == Status::ok && D::needs_colors) status = colors.status();
-  if (status == Status::ok && D::needs_normals) status = normals.status();
+  Status status = validate(radius);
+  if (status == Status::ok) status = validate(frame);
+  if (status == Status::ok) status = detail::status_of(typename D::Sources{}, sources);
   if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
   if (status != Status::ok) return status;
-  return detail::describe_checked<D, ChunkSize>(n, colors, normals, frame, radius, out);
+  return detail::describe_checked<D, ChunkSize>(n, sources, frame, radius, out);
 }
 
-/// The same for descriptors without normals.
-template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors, class Colors>
-[[nodiscard]] inline Status describe(const Neighbors& n, const Colors& colors, const Frame& frame, Radius radius,
+/// The same with one source.
+template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors, class Source>
+[[nodiscard]] inline Status describe(const Neighbors& n, const Source& source, const Frame& frame, Radius radius,
                                      float* out) noexcept {
-  return describe<D, ChunkSize>(n, colors, NoNormals{}, frame, radius, out);
+  return describe<D, ChunkSize>(n, sources(source), frame, radius, out);
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -6,43 +6,24 @@
 
 #include "../base/simd.hpp"
 #include "../base/unroll.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../descriptor/axis.hpp"
 #include "../descriptor/voting.hpp"
 #include "to_spherical.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// The votes that a point has for a part.
 template <class Voting, class Part>
 inline constexpr int votes_of = Voting::template votes<Part::axis_count>;
 
-/// The row of a chunk that has the signal of a part.
-template <class Part, class Chunk>
-inline constexpr int signal_row = Part::Signal::needs_colors ? Chunk::color_row : Chunk::normal_row;
-
-/// Where `coordinate` lies along axis `k` of a part (3: its histogram's).
-template <class Cells, class Scale>
-[[nodiscard]] SHORTSHOT_INLINE simd::I32 position_along_axis(const Axis& axis, int k, simd::F32 coordinate) noexcept {
-  if constexpr (!Cells::bins_are_cells) {
-    if (k == 3) return Cells::bin_position(axis, coordinate);
-  }
-  if constexpr (!Scale::is_linear) {
-    if (k == 0) return Cells::position(Scale::position(axis, coordinate));
-  }
-  const simd::F32 along = k == 1 ? Cells::elevation(coordinate) : coordinate;
-  const simd::I32 position = Cells::position(along * simd::all(axis.length()));
-  if (Cells::has_poles && k == 2) return invert(is_negative(bits_of(coordinate)), position);  // 0 to -1: nowhere
-  return position;
-}
-
-/// The share of it.
+/// The share of a `coordinate` along axis `k` of a part (3: its histogram's).
 template <class Voting, class Cells, class Scale>
 [[nodiscard]] SHORTSHOT_INLINE Share share_along_axis(const Axis& axis, int k, simd::F32 coordinate,
                                                       const VoteUnit& unit) noexcept {
-  return Voting::split(axis, position_along_axis<Cells, Scale>(axis, k, coordinate), unit);
+  return Voting::split(axis, Cells::template position<Scale>(axis, k, coordinate), unit);
 }
 
 /// One register of a chunk's neighbors in the frame's spherical coordinates.
@@ -91,12 +72,11 @@ template <class Voting, class Part, class Chunk>
                                                                       const VoteUnit& unit) noexcept {
   constexpr const Axis(&axes)[4] = Part::template axes<Part::values>;
   if constexpr (Part::has_histogram) {
-    const simd::F32 signal = simd::load(chunk.row(signal_row<Part, Chunk>, i));
+    const simd::F32 signal = simd::load(chunk.row(Chunk::template row_of<typename Part::Signal>, i));
     shares.axes[3] = share_along_axis<Voting, typename Part::Cells, typename Part::Scale>(axes[3], 3, signal, unit);
   }
   return Voting::template combine<Part::axis_count>(axes, shares.axes, unit);
 }
 
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

@@ -11,51 +11,15 @@
 #include "../base/math.hpp"
 #include "../base/unfused.hpp"
 #include "../cloud/cloud.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../frame/frame.hpp"
 #include "../status.hpp"
 #include "descriptor_rows.hpp"
 #include "match.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
-
-[[nodiscard]] inline bool is_finite(const float* values, std::size_t count) noexcept {
-  return std::all_of(values, values + count, [](float value) { return math::is_finite(value); });
-}
-
-/// Rows that there are, and descriptors that can be compared: all of their values are finite. ok or bad_rows.
-[[nodiscard]] inline Status check_values(const DescriptorRows& rows) noexcept {
-  Status status = check(rows);
-  for (std::size_t row = 0; row < rows.count && status == Status::ok; ++row) {
-    if (is_ok(rows, row) && !is_finite(rows.values + row * rows.size, rows.size)) status = Status::bad_rows;
-  }
-  return status;
-}
-
-/// The same, with places and frames that one can cast a vote from: also invalid_keypoint and bad_frame.
-[[nodiscard]] inline Status check_values(const FeatureRows& rows) noexcept {
-  Status status = check(rows);
-  if (status == Status::ok) status = check_values(rows.descriptors);
-  for (std::size_t row = 0; row < rows.descriptors.count && status == Status::ok; ++row) {
-    if (!is_ok(rows.descriptors, row)) continue;
-    status = is_finite(rows.keypoints[row].position) ? check(rows.frames[row]) : Status::invalid_keypoint;
-  }
-  return status;
-}
-
-/// A point in a frame's coordinates, and back.
-[[nodiscard]] inline Point to_local(const Point& p, const Point& origin, const Frame& frame) noexcept {
-  const float offset[3] = {p.x - origin.x, p.y - origin.y, p.z - origin.z};
-  return {dot(frame.x, offset), dot(frame.y, offset), dot(frame.z, offset)};
-}
-[[nodiscard]] inline Point from_local(const Point& p, const Point& origin, const Frame& frame) noexcept {
-  const auto component = [&](int k) {
-    return (rounded(p.x * frame.x[k]) + rounded(p.y * frame.y[k])) + rounded(p.z * frame.z[k]);
-  };
-  return {origin.x + component(0), origin.y + component(1), origin.z + component(2)};
-}
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
 
 /// Every descriptor of a training view is a codeword.
 struct Codebook {
@@ -74,57 +38,101 @@ struct Codebook {
   std::vector<Instance> instances;
   std::vector<Codeword> codewords;
   std::vector<float> values;  // codewords.size() * row_size
-
-  [[nodiscard]] DescriptorRows rows() const noexcept { return {values.data(), codewords.size(), row_size, nullptr}; }
-
-  /// Are these the descriptors that it was made of?
-  [[nodiscard]] Status fits(const DescriptorRows& queries, std::string_view layout_of_queries) const noexcept {
-    if (codewords.empty()) return Status::not_trained;
-    return queries.size == row_size && layout_of_queries == layout ? Status::ok : Status::other_descriptor;
-  }
-
-  /// The number of a class, or of an instance; a new one if there is none of that name.
-  [[nodiscard]] std::uint32_t class_number(std::string_view name) {
-    const auto found = std::find(classes.begin(), classes.end(), name);
-    const auto number = static_cast<std::uint32_t>(found - classes.begin());
-    if (found == classes.end()) classes.emplace_back(name);
-    return number;
-  }
-  [[nodiscard]] std::uint32_t instance_number(std::uint32_t object_class, std::string_view name) {
-    const auto found = std::find_if(instances.begin(), instances.end(), [&](const Instance& instance) {
-      return instance.object_class == object_class && instance.name == name;
-    });
-    const auto number = static_cast<std::uint32_t>(found - instances.begin());
-    if (found == instances.end()) instances.push_back({object_class, std::string(name)});
-    return number;
-  }
-
-  /// Adds the rows, which were checked, of an object of which `center` is the center. All or nothing.
-  [[nodiscard]] Status add(const FeatureRows& rows, const Point& center, std::string_view object_class,
-                           std::string_view instance) {
-    const DescriptorRows& descriptors = rows.descriptors;
-    std::vector<Point> centers(descriptors.count);
-    std::size_t added = 0;
-    for (std::size_t row = 0; row < descriptors.count; ++row) {
-      if (!is_ok(descriptors, row)) continue;
-      centers[row] = to_local(center, rows.keypoints[row].position, rows.frames[row]);
-      if (!shortshot::is_finite(centers[row])) return Status::invalid_keypoint;  // farther away than floats reach
-      ++added;
-    }
-    if (added == 0) return Status::ok;
-    if (added >= no_row - codewords.size()) return Status::bad_rows;
-
-    const std::uint32_t number = instance_number(class_number(object_class), instance);
-    for (std::size_t row = 0; row < descriptors.count; ++row) {
-      if (!is_ok(descriptors, row)) continue;
-      const float* from = descriptors.values + row * descriptors.size;
-      values.insert(values.end(), from, from + descriptors.size);
-      codewords.push_back({number, centers[row]});
-    }
-    return Status::ok;
-  }
 };
 
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+[[nodiscard]] inline bool is_finite(const float* values, std::size_t count) noexcept {
+  return std::all_of(values, values + count, [](float value) { return math::is_finite(value); });
+}
+
+/// Rows that there are, and descriptors that can be compared: all of their values are finite. ok or bad_rows.
+[[nodiscard]] inline Status check_values(const DescriptorRows& rows) noexcept {
+  Status status = validate(rows);
+  for (std::size_t row = 0; row < rows.count && status == Status::ok; ++row) {
+    if (is_ok(rows, row) && !is_finite(rows.values + row * rows.size, rows.size)) status = Status::bad_rows;
+  }
+  return status;
+}
+
+/// The same, with places and frames that one can cast a vote from: also invalid_keypoint and bad_frame.
+[[nodiscard]] inline Status check_values(const FeatureRows& rows) noexcept {
+  Status status = validate(rows);
+  if (status == Status::ok) status = check_values(rows.descriptors);
+  for (std::size_t row = 0; row < rows.descriptors.count && status == Status::ok; ++row) {
+    if (!is_ok(rows.descriptors, row)) continue;
+    status = is_finite(rows.keypoints[row].position) ? validate(rows.frames[row]) : Status::invalid_keypoint;
+  }
+  return status;
+}
+
+/// A point in a frame's coordinates, and back.
+[[nodiscard]] inline Point to_local(const Point& p, const Point& origin, const Frame& frame) noexcept {
+  const float offset[3] = {p.x - origin.x, p.y - origin.y, p.z - origin.z};
+  return {dot(frame.x, offset), dot(frame.y, offset), dot(frame.z, offset)};
+}
+[[nodiscard]] inline Point from_local(const Point& p, const Point& origin, const Frame& frame) noexcept {
+  const auto component = [&](int k) {
+    return (unfused(p.x * frame.x[k]) + unfused(p.y * frame.y[k])) + unfused(p.z * frame.z[k]);
+  };
+  return {origin.x + component(0), origin.y + component(1), origin.z + component(2)};
+}
+
+[[nodiscard]] inline DescriptorRows rows_of(const Codebook& codebook) noexcept {
+  return {codebook.values.data(), codebook.codewords.size(), codebook.row_size, nullptr};
+}
+
+/// Are these the descriptors that it was made of?
+[[nodiscard]] inline Status validate_queries(const Codebook& codebook, const DescriptorRows& queries,
+                                             std::string_view layout) noexcept {
+  if (codebook.codewords.empty()) return Status::not_trained;
+  return queries.size == codebook.row_size && layout == codebook.layout ? Status::ok : Status::other_descriptor;
+}
+
+/// The number of a class, or of an instance; a new one if there is none of that name.
+[[nodiscard]] inline std::uint32_t class_number(Codebook& codebook, std::string_view name) {
+  std::vector<std::string>& classes = codebook.classes;
+  const auto found = std::find(classes.begin(), classes.end(), name);
+  const auto number = static_cast<std::uint32_t>(found - classes.begin());
+  if (found == classes.end()) classes.emplace_back(name);
+  return number;
+}
+[[nodiscard]] inline std::uint32_t instance_number(Codebook& codebook, std::uint32_t object_class,
+                                                   std::string_view name) {
+  std::vector<Codebook::Instance>& instances = codebook.instances;
+  const auto found = std::find_if(instances.begin(), instances.end(), [&](const Codebook::Instance& instance) {
+    return instance.object_class == object_class && instance.name == name;
+  });
+  const auto number = static_cast<std::uint32_t>(found - instances.begin());
+  if (found == instances.end()) instances.push_back({object_class, std::string(name)});
+  return number;
+}
+
+/// Adds the rows, which were validated, of an object of which `center` is the center. All or nothing.
+[[nodiscard]] inline Status add(Codebook& codebook, const FeatureRows& rows, const Point& center,
+                                std::string_view object_class, std::string_view instance) {
+  const DescriptorRows& descriptors = rows.descriptors;
+  std::vector<Point> centers(descriptors.count);
+  std::size_t added = 0;
+  for (std::size_t row = 0; row < descriptors.count; ++row) {
+    if (!is_ok(descriptors, row)) continue;
+    centers[row] = to_local(center, rows.keypoints[row].position, rows.frames[row]);
+    if (!shortshot::is_finite(centers[row])) return Status::invalid_keypoint;  // farther away than floats reach
+    ++added;
+  }
+  if (added == 0) return Status::ok;
+  if (added >= no_row - codebook.codewords.size()) return Status::bad_rows;
+
+  const std::uint32_t number = instance_number(codebook, class_number(codebook, object_class), instance);
+  for (std::size_t row = 0; row < descriptors.count; ++row) {
+    if (!is_ok(descriptors, row)) continue;
+    const float* from = descriptors.values + row * descriptors.size;
+    codebook.values.insert(codebook.values.end(), from, from + descriptors.size);
+    codebook.codewords.push_back({number, centers[row]});
+  }
+  return Status::ok;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

@@ -6,13 +6,13 @@
 #include <vector>
 
 #include "../batch/features.hpp"
+#include "../cloud/keypoint.hpp"
 #include "../config.hpp"
 #include "../frame/frame.hpp"
-#include "../kernel/describe_at.hpp"
 #include "../status.hpp"
 
 namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+inline namespace SHORTSHOT_TYPES {
 
 /// `count` descriptors of `size` floats each, row by row without gaps. Borrowed, like everything here.
 struct DescriptorRows {
@@ -29,35 +29,41 @@ struct FeatureRows {
   const Frame* frames;        ///< one per row
 };
 
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
 /// The rows of extract()'s result; the features must outlive them.
-template <class D, class Color>
-[[nodiscard]] DescriptorRows rows_of(const Features<D, Color>& features) noexcept {
+template <class D>
+[[nodiscard]] DescriptorRows rows_of(const Features<D>& features) noexcept {
   return {features.values.data(), features.size(), static_cast<std::size_t>(D::size), features.status.data()};
 }
 
-/// The same with the key points that extract() was given, of which there must be as many.
-template <class D, class Color>
-[[nodiscard]] FeatureRows rows_of(const Features<D, Color>& features, const std::vector<KeyPoint>& keypoints) noexcept {
-  return {rows_of(features), keypoints.size() == features.size() ? keypoints.data() : nullptr, features.frames.data()};
+/// The same with key points and frames.
+template <class D>
+[[nodiscard]] FeatureRows feature_rows_of(const Features<D>& features) noexcept {
+  const bool complete = features.keypoints.size() == features.size() && features.frames.size() == features.size();
+  return {rows_of(features), complete ? features.keypoints.data() : nullptr, features.frames.data()};
 }
 
 /// Can these rows be used: no null pointer where there are rows, and at least one value in each? ok or bad_rows.
-[[nodiscard]] inline Status check(const DescriptorRows& rows) noexcept {
+[[nodiscard]] inline Status validate(const DescriptorRows& rows) noexcept {
   return rows.size > 0 && (rows.count == 0 || rows.values != nullptr) ? Status::ok : Status::bad_rows;
 }
 
-[[nodiscard]] inline Status check(const FeatureRows& rows) noexcept {
+[[nodiscard]] inline Status validate(const FeatureRows& rows) noexcept {
   const bool complete = rows.descriptors.count == 0 || (rows.keypoints != nullptr && rows.frames != nullptr);
-  return complete ? check(rows.descriptors) : Status::bad_rows;
+  return complete ? validate(rows.descriptors) : Status::bad_rows;
 }
 
-namespace detail {
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 [[nodiscard]] inline bool is_ok(const DescriptorRows& rows, std::size_t row) noexcept {
   return rows.status == nullptr || rows.status[row] == Status::ok;
 }
 
-}  // namespace detail
-
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

@@ -19,11 +19,13 @@
 #include "../base/simd.hpp"
 #include "../base/unfused.hpp"
 #include "../batch/executor.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../status.hpp"
 #include "descriptor_rows.hpp"
 
 namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
 
 /// In place of a row's number where there is none.
 inline constexpr std::uint32_t no_row = 0xFFFFFFFFu;
@@ -35,14 +37,17 @@ struct Match {
 };
 
 /// A row of each of two sets, and their distance (L2).
-struct Correspondence {
+struct MatchedPair {
   std::uint32_t source;
   std::uint32_t target;
   float distance;
 };
 
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// Rows of queries and of the database in one product: with fewer, more of the time goes into Eigen's packing.
 inline constexpr std::size_t product_rows = 128;
@@ -116,8 +121,8 @@ class ComparedRows {
 /// ok or bad_rows.
 [[nodiscard]] inline Status check_comparable(const DescriptorRows& a, const DescriptorRows& b) noexcept {
   const bool numbered = a.count < no_row && b.count < no_row;
-  return check(a) == Status::ok && check(b) == Status::ok && a.size == b.size && numbered ? Status::ok
-                                                                                          : Status::bad_rows;
+  return validate(a) == Status::ok && validate(b) == Status::ok && a.size == b.size && numbered ? Status::ok
+                                                                                                : Status::bad_rows;
 }
 
 /// Shares blocks of queries among threads. compare(thread, q, first, last, products) is called for each query that
@@ -164,7 +169,11 @@ inline void insert(Match* best, std::size_t k, const Match& match) noexcept {
   return best;
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// The k nearest rows of the database for each query, nearest first; of rows at the same distance the first ones come
 /// first. Exact: as if all distances were computed as sums of squared differences in float, in a fixed order.
@@ -208,7 +217,7 @@ template <class Threads = unsigned>
   };
   detail::for_products(executor, team, from, to, compare);
   for (Match& match : out) {
-    match.distance = match.row == no_row ? std::numeric_limits<float>::infinity() : simd::root(match.distance);
+    match.distance = match.row == no_row ? std::numeric_limits<float>::infinity() : extend::simd::sqrt(match.distance);
   }
   return Status::ok;
 }
@@ -220,7 +229,7 @@ template <class Threads = unsigned>
 /// of the source, and for each row of the target and each thread.
 template <class Threads = unsigned>
 [[nodiscard]] Status reciprocal_correspondences(const DescriptorRows& source, const DescriptorRows& target,
-                                                std::vector<Correspondence>& out, Threads&& threads = 1u) {
+                                                std::vector<MatchedPair>& out, Threads&& threads = 1u) {
   out.clear();
   const Status usable = detail::check_comparable(source, target);
   if (usable != Status::ok) return usable;
@@ -249,10 +258,10 @@ template <class Threads = unsigned>
   for (std::size_t s = 0; s < source.count; ++s) {
     const Match& match = of_source[s];
     if (match.row == no_row || sources[match.row].row != s) continue;
-    out.push_back({static_cast<std::uint32_t>(s), match.row, simd::root(match.distance)});
+    out.push_back({static_cast<std::uint32_t>(s), match.row, extend::simd::sqrt(match.distance)});
   }
   return Status::ok;
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -10,20 +10,20 @@
 #include "../base/math.hpp"
 #include "../base/unfused.hpp"
 #include "../cloud/cloud.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// e^-t, for t from 0 to 80: within 3e-7 of it, relatively, and the same on every machine, as libm's is not.
 [[nodiscard]] inline float exp_minus(float t) noexcept {
   const auto halvings = (static_cast<std::int32_t>(t * 2.88539008f) + 1) / 2;  // t / ln 2, to the nearest
   const auto n = static_cast<float>(halvings);
-  const float r = (rounded(n * 0.693359375f) - t) - rounded(n * 2.12194440e-4f);  // ln 2 in two parts; |r| <= ln 2 / 2
+  const float r = (unfused(n * 0.693359375f) - t) - unfused(n * 2.12194440e-4f);  // ln 2 in two parts; |r| <= ln 2 / 2
   float sum = 1.0f / 720.0f;
-  for (const float c : {1.0f / 120.0f, 1.0f / 24.0f, 1.0f / 6.0f, 0.5f, 1.0f, 1.0f}) sum = c + rounded(r * sum);
-  return rounded(sum * math::float_of(static_cast<std::uint32_t>(127 - halvings) << 23));
+  for (const float c : {1.0f / 120.0f, 1.0f / 24.0f, 1.0f / 6.0f, 0.5f, 1.0f, 1.0f}) sum = c + unfused(r * sum);
+  return unfused(sum * math::float_of(static_cast<std::uint32_t>(127 - halvings) << 23));
 }
 
 /// A vote for an object's center.
@@ -56,7 +56,7 @@ class VoteDensity {
   /// What a vote adds to the density at a place.
   [[nodiscard]] float weight(const Vote& vote, const Point& at) const noexcept {
     const float d2 = squared_distance(vote.center, at);
-    return d2 < reach_d2_ ? exp_minus(rounded(factor_ * d2)) : 0.0f;
+    return d2 < reach_d2_ ? exp_minus(unfused(factor_ * d2)) : 0.0f;
   }
 
   /// The maximum where the mean shift from a vote ends: one look at all votes for each of at most 100 steps.
@@ -70,9 +70,9 @@ class VoteDensity {
         const float w = weight(other, at);
         if (w == 0.0f) continue;
         density += w;
-        shift.x += rounded(w * (other.center.x - at.x));
-        shift.y += rounded(w * (other.center.y - at.y));
-        shift.z += rounded(w * (other.center.z - at.z));
+        shift.x += unfused(w * (other.center.x - at.x));
+        shift.y += unfused(w * (other.center.y - at.y));
+        shift.z += unfused(w * (other.center.z - at.z));
       }
       if (!(density > peak.density)) break;  // it grows, but for rounding, from the 1 that the vote itself makes it
       peak = {at, density};
@@ -94,6 +94,5 @@ class VoteDensity {
   float factor_;
 };
 
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

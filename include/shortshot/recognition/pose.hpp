@@ -16,11 +16,14 @@
 #include "../base/math.hpp"
 #include "../base/unfused.hpp"
 #include "../cloud/cloud.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../search/neighborhood.hpp"
+#include "../search/radius.hpp"
 #include "../status.hpp"
 
 namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
 
 /// A rigid motion: target = rotation * source + translation, in meters. Trivial type.
 struct Pose {
@@ -42,26 +45,32 @@ struct RansacOptions {
   std::uint32_t seed = 1;           ///< of the samples' sequence
 };
 
-inline namespace SHORTSHOT_ISA {
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
 
 /// Where a motion takes a point.
-[[nodiscard]] inline Point apply(const Pose& pose, const Point& p) noexcept {
+[[nodiscard]] inline Point transform_point(const Pose& pose, const Point& p) noexcept {
   const auto component = [&](std::size_t row) {
     const float* const r = pose.rotation + 3 * row;
-    return ((rounded(r[0] * p.x) + rounded(r[1] * p.y)) + rounded(r[2] * p.z)) + pose.translation[row];
+    return ((extend::unfused(r[0] * p.x) + extend::unfused(r[1] * p.y)) + extend::unfused(r[2] * p.z)) +
+           pose.translation[row];
   };
   return {component(0), component(1), component(2)};
 }
 
 /// ok or bad_option.
-[[nodiscard]] inline Status check(const RansacOptions& options) noexcept {
-  const bool similarity =
-      math::is_finite(options.edge_similarity) && options.edge_similarity >= 0.0f && options.edge_similarity <= 1.0f;
-  const bool distance = check(Radius(options.inlier_distance)) == Status::ok;
+[[nodiscard]] inline Status validate(const RansacOptions& options) noexcept {
+  const bool similarity = extend::math::is_finite(options.edge_similarity) && options.edge_similarity >= 0.0f &&
+                          options.edge_similarity <= 1.0f;
+  const bool distance = validate(Radius(options.inlier_distance)) == Status::ok;
   return options.iterations > 0 && similarity && distance ? Status::ok : Status::bad_option;
 }
 
-namespace detail {
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 // What needs Eigen's solver is a template, also where one type would do: its instantiation takes a compiler seconds,
 // for which only those shall wait who ask for a pose.
@@ -179,7 +188,7 @@ struct Consensus {
   Radius reach;
 
   [[nodiscard]] bool agrees(const Pose& pose, const PointPair& pair) const noexcept {
-    return squared_distance(pair.target, apply(pose, pair.source)) < reach.squared;
+    return squared_distance(pair.target, transform_point(pose, pair.source)) < reach.squared;
   }
   [[nodiscard]] std::size_t count(const Pose& pose) const noexcept {
     return static_cast<std::size_t>(
@@ -212,7 +221,11 @@ struct Consensus {
   }
 };
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// The rigid motion with the least sum of squared distances between targets and moved sources: Kabsch's problem, solved
 /// with quaternions, so that a reflection is never an answer (B. Horn, "Closed-form solution of absolute orientation
@@ -247,7 +260,7 @@ template <class Pairs>
                                    std::vector<std::uint32_t>& inliers) {
   pose = Pose{};
   inliers.clear();
-  Status usable = check(options);
+  Status usable = validate(options);
   if (usable == Status::ok) usable = detail::check_pairs(pairs);
   if (usable != Status::ok) return usable;
 
@@ -273,5 +286,5 @@ template <class Pairs>
   return Status::ok;
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -1,32 +1,30 @@
-// shortshot/recognition/recognizer.hpp: which objects are where: an implicit shape model, whose descriptors vote for
-// the centers of objects. Hosted only: allocates, starts threads. Needs Eigen.
+// shortshot/recognition/recognizer.hpp: what has been learned of objects: an implicit shape model, whose descriptors
+// vote for the centers of objects. recognize.hpp trains and asks it. Hosted only.
 //
 // After B. Leibe, A. Leonardis, B. Schiele: Robust object detection with interleaved categorization and segmentation
 // (IJCV 77, 2008), with local reference frames in 3-D as in F. Tombari, L. Di Stefano: Object recognition in 3D scenes
 // with occlusions and clutter by Hough voting (PSIVT 2010).
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "../batch/executor.hpp"
-#include "../batch/features.hpp"
 #include "../cloud/cloud.hpp"
 #include "../config.hpp"
-#include "../descriptor/layout_text.hpp"
-#include "../kernel/describe_at.hpp"
-#include "../status.hpp"
 #include "codebook.hpp"
-#include "descriptor_rows.hpp"
-#include "match.hpp"
-#include "mean_shift.hpp"
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
+
+struct RecognizerAccess;
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::detail
 
 namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
 
 struct RecognizerOptions {
   float bandwidth = 0.03f;      ///< h of the density of votes, 1e-6 to 1e6 meters: about how far votes miss the center
@@ -49,15 +47,6 @@ struct ActivationShares {
   std::vector<float> instances;
 };
 
-inline namespace SHORTSHOT_ISA {
-
-/// ok or bad_option.
-[[nodiscard]] inline Status check(const RecognizerOptions& options) noexcept {
-  const bool usable = options.bandwidth >= 1e-6f && options.bandwidth <= 1e6f && options.neighbors >= 1 &&
-                      options.neighbors <= 1024 && options.most >= 1;
-  return usable ? Status::ok : Status::bad_option;
-}
-
 /// Recognizes objects by their descriptors. Every descriptor of the training views is a codeword. One of a new view
 /// activates those that are nearest (L2), and each of these votes for the place where its object's center would be: as
 /// it lay in the key point's local reference frame in training. Votes for a class gather at the centers of its objects;
@@ -68,8 +57,9 @@ inline namespace SHORTSHOT_ISA {
 /// two descriptors must have in common to be compared) and the number of values. Radii, and how frames are turned, must
 /// be the same in training and afterwards.
 ///
-/// Calls of const functions may run at the same time. All may throw what extract() may; a recognizer that ran out of
-/// memory in train() can only be assigned to or destroyed.
+/// train() makes one, recognize() and activation_shares() ask it, save() and load() keep it. Calls that do not change
+/// it may run at the same time. All may throw what extract() may; a recognizer that ran out of memory in train() can
+/// only be assigned to or destroyed.
 class Recognizer {
  public:
   Recognizer() = default;
@@ -96,173 +86,24 @@ class Recognizer {
   [[nodiscard]] const std::string& layout() const noexcept { return codebook_.layout; }
   [[nodiscard]] std::size_t row_size() const noexcept { return codebook_.row_size; }
 
-  /// Learns a view of an object. `center` is a point at the same place of the object in all of its views, best in its
-  /// middle, in the view's coordinates. Rows whose status is not ok are left out; a view that has no other adds
-  /// nothing, not even its names.
-  ///
-  /// Statuses: bad_rows (null pointers, rows without values, values that are not finite, 2^32 - 1 codewords or more),
-  /// invalid_keypoint (a key point or the center is not finite, or they lie 1e38 m apart), bad_frame, other_descriptor.
-  /// Nothing has changed then. Allocates 16 bytes for a codeword and 4 for each of its values.
-  [[nodiscard]] Status train(const FeatureRows& rows, std::string_view layout, const Point& center,
-                             std::string_view object_class, std::string_view instance) {
-    Status status = detail::check_values(rows);
-    if (status == Status::ok && !is_finite(center)) status = Status::invalid_keypoint;
-    if (status == Status::ok && codeword_count() > 0) status = codebook_.fits(rows.descriptors, layout);
-    if (status == Status::ok) status = codebook_.add(rows, center, object_class, instance);
-    if (status == Status::ok && codebook_.row_size == 0 && codeword_count() > 0) {
-      codebook_.layout = layout;
-      codebook_.row_size = rows.descriptors.size;
-    }
-    return status;
-  }
-
-  /// The same for what extract() gives with these key points.
-  template <class D, class Color>
-  [[nodiscard]] Status train(const Features<D, Color>& features, const std::vector<KeyPoint>& keypoints,
-                             const Point& center, std::string_view object_class, std::string_view instance) {
-    return train(rows_of(features, keypoints), layout_of<D>(), center, object_class, instance);
-  }
-
-  /// Finds the objects in a view: the maxima of the density of votes, densest first. The first one's class is what the
-  /// view shows if it shows one object. Its instance is the one whose votes count for most there.
-  ///
-  /// `out`      of each class, maxima that lie farther than the bandwidth from any denser one; options().most in all.
-  ///            Empty if no row has the status ok
-  /// `threads`  how many threads share the work, or an executor (see extract()); the result is the same, bit for bit,
-  ///            for any number, and on every machine
-  ///
-  /// Statuses: what train() has, bad_option and not_trained; `out` is empty then. The cost is that of nearest() and of
-  /// mean shift from every vote, about V^2 / 10 microseconds for V votes for one class (measured on a desktop CPU: 2 ms
-  /// for 130, 0.15 s for 1000). Allocates what nearest() does, and 50 bytes for each vote.
-  template <class Threads = unsigned>
-  [[nodiscard]] Status recognize(const FeatureRows& rows, std::string_view layout, std::vector<Hypothesis>& out,
-                                 Threads&& threads = 1u) const {
-    out.clear();
-    std::vector<Match> matches;
-    Status status = detail::check_values(rows);
-    if (status == Status::ok) status = activate(rows.descriptors, layout, matches, threads);
-    if (status != Status::ok) return status;
-    const std::vector<detail::Vote> votes = cast_votes(rows, matches);
-    std::vector<detail::Peak> peaks(votes.size());
-    auto&& executor = detail::executor_of(threads, (votes.size() + vote_block - 1) / vote_block);
-    const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-    detail::for_blocks(executor, team, votes.size(), vote_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) peaks[i] = density_for(votes, votes[i].object_class).climb(votes[i]);
-    });
-    choose(votes, peaks, out);
-    return Status::ok;
-  }
-
-  template <class D, class Color, class Threads = unsigned>
-  [[nodiscard]] Status recognize(const Features<D, Color>& features, const std::vector<KeyPoint>& keypoints,
-                                 std::vector<Hypothesis>& out, Threads&& threads = 1u) const {
-    return recognize(rows_of(features, keypoints), layout_of<D>(), out, threads);
-  }
-
-  /// The simpler way, without places: by which classes' and instances' codewords the descriptors are matched. A single
-  /// object is what has the largest share. Statuses and `threads` as for recognize(); `out` is empty then.
-  template <class Threads = unsigned>
-  [[nodiscard]] Status activation_shares(const DescriptorRows& rows, std::string_view layout, ActivationShares& out,
-                                         Threads&& threads = 1u) const {
-    out.classes.clear();
-    out.instances.clear();
-    std::vector<Match> matches;
-    Status status = detail::check_values(rows);
-    if (status == Status::ok) status = activate(rows, layout, matches, threads);
-    if (status != Status::ok) return status;
-    out.classes.assign(class_count(), 0.0f);
-    out.instances.assign(instance_count(), 0.0f);
-    float activations = 0.0f;
-    for (const Match& match : matches) {
-      if (match.row == no_row) continue;
-      const std::uint32_t instance = codebook_.codewords[match.row].instance;
-      out.classes[class_of(instance)] += 1.0f;
-      out.instances[instance] += 1.0f;
-      activations += 1.0f;
-    }
-    for (float& share : out.classes) share /= std::max(activations, 1.0f);
-    for (float& share : out.instances) share /= std::max(activations, 1.0f);
-    return Status::ok;
-  }
-
-  template <class D, class Color, class Threads = unsigned>
-  [[nodiscard]] Status activation_shares(const Features<D, Color>& features, ActivationShares& out,
-                                         Threads&& threads = 1u) const {
-    return activation_shares(rows_of(features), layout_of<D>(), out, threads);
-  }
-
  private:
-  friend Status save(const Recognizer& recognizer, std::vector<std::uint8_t>& bytes);
-  friend Status load(const std::uint8_t* bytes, std::size_t size, std::string_view layout, Recognizer& out);
-
-  /// Votes that a thread takes at a time.
-  static constexpr std::size_t vote_block = 8;
-
-  template <class Threads>
-  [[nodiscard]] Status activate(const DescriptorRows& rows, std::string_view layout, std::vector<Match>& matches,
-                                Threads& threads) const {
-    Status status = check(options_);
-    if (status == Status::ok) status = codebook_.fits(rows, layout);
-    if (status == Status::ok) status = nearest(rows, codebook_.rows(), options_.neighbors, matches, threads);
-    return status;
-  }
-
-  /// In ascending order of classes.
-  [[nodiscard]] std::vector<detail::Vote> cast_votes(const FeatureRows& rows, const std::vector<Match>& matches) const {
-    std::vector<detail::Vote> votes;
-    votes.reserve(matches.size());
-    for (std::size_t i = 0; i < matches.size(); ++i) {
-      if (matches[i].row == no_row) continue;
-      const detail::Codebook::Codeword& codeword = codebook_.codewords[matches[i].row];
-      const std::size_t row = i / options_.neighbors;
-      const Point center = detail::from_local(codeword.center, rows.keypoints[row].position, rows.frames[row]);
-      if (!is_finite(center)) continue;  // farther away than floats reach
-      votes.push_back({center, class_of(codeword.instance), codeword.instance});
-    }
-    std::stable_sort(votes.begin(), votes.end(),
-                     [](const detail::Vote& a, const detail::Vote& b) { return a.object_class < b.object_class; });
-    return votes;
-  }
-
-  [[nodiscard]] detail::VoteDensity density_for(const std::vector<detail::Vote>& votes,
-                                                std::uint32_t object_class) const {
-    const auto has_class_below = [](const detail::Vote& vote, std::uint32_t end) { return vote.object_class < end; };
-    const auto begin = std::lower_bound(votes.begin(), votes.end(), object_class, has_class_below);
-    const auto end = std::lower_bound(begin, votes.end(), object_class + 1, has_class_below);
-    return {votes.data() + (begin - votes.begin()), votes.data() + (end - votes.begin()), options_.bandwidth};
-  }
-
-  /// The instance whose votes have the largest sum of weights at a place; the first trained one of those.
-  [[nodiscard]] std::uint32_t heaviest_instance(const detail::VoteDensity& density, const Point& at) const {
-    std::vector<float> sums(instance_count(), 0.0f);
-    for (const detail::Vote& vote : density) sums[vote.instance] += density.weight(vote, at);
-    return static_cast<std::uint32_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
-  }
-
-  /// Hypotheses from the peak that each vote has climbed to, densest first; of equal ones, as the votes are ordered.
-  void choose(const std::vector<detail::Vote>& votes, const std::vector<detail::Peak>& peaks,
-              std::vector<Hypothesis>& out) const {
-    std::vector<std::size_t> order(peaks.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return peaks[a].density > peaks[b].density; });
-    for (const std::size_t i : order) {
-      if (out.size() == options_.most) break;
-      const std::uint32_t object_class = votes[i].object_class;
-      const Point& at = peaks[i].at;
-      const bool is_known = std::any_of(out.begin(), out.end(), [&](const Hypothesis& denser) {
-        return denser.object_class == object_class &&
-               squared_distance(denser.center, at) <= rounded(options_.bandwidth * options_.bandwidth);
-      });
-      if (is_known) continue;
-      const detail::VoteDensity density = density_for(votes, object_class);
-      out.push_back({object_class, heaviest_instance(density, at), at, peaks[i].density});
-    }
-  }
+  friend struct detail::RecognizerAccess;
 
   RecognizerOptions options_;
   detail::Codebook codebook_;
 };
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
+
+/// The inside of a recognizer, for train(), recognize(), save() and load().
+struct RecognizerAccess {
+  [[nodiscard]] static const Codebook& codebook(const Recognizer& recognizer) noexcept { return recognizer.codebook_; }
+  [[nodiscard]] static Codebook& codebook(Recognizer& recognizer) noexcept { return recognizer.codebook_; }
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::detail

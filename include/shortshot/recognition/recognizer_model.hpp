@@ -27,14 +27,15 @@
 
 #include "../base/math.hpp"
 #include "../cloud/cloud.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../status.hpp"
 #include "codebook.hpp"
+#include "recognize.hpp"
 #include "recognizer.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::string_view model_magic = "SSHOTREC";
 inline constexpr std::uint32_t model_version = 1;
@@ -156,7 +157,7 @@ inline void write(ModelWriter& to, const RecognizerOptions& options, const Codeb
   options.bandwidth = from.real();
   options.neighbors = from.number<std::uint32_t>();
   options.most = from.number<std::uint32_t>();
-  from.require(check(options) == Status::ok);
+  from.require(validate(options) == Status::ok);
   for (std::size_t i = from.count(8); i > 0 && from.good(); --i) codebook.classes.push_back(from.name());
   for (std::size_t i = from.count(12); i > 0 && from.good(); --i) {
     const std::uint32_t object_class = from.index(codebook.classes.size());
@@ -177,20 +178,24 @@ inline void write(ModelWriter& to, const RecognizerOptions& options, const Codeb
   return from.good();
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// A trained recognizer, with its options, as bytes: the same ones on every machine. Statuses: not_trained, bad_option;
 /// `bytes` is empty then. Allocates the bytes.
 [[nodiscard]] inline Status save(const Recognizer& recognizer, std::vector<std::uint8_t>& bytes) {
   bytes.clear();
   if (recognizer.codeword_count() == 0) return Status::not_trained;
-  if (check(recognizer.options_) != Status::ok) return Status::bad_option;
+  if (validate(recognizer.options()) != Status::ok) return Status::bad_option;
   const std::size_t codeword_bytes = 16 + sizeof(float) * recognizer.row_size();
   bytes.reserve(4096 + recognizer.codeword_count() * codeword_bytes);
   detail::ModelWriter to(bytes);
   to.characters(detail::model_magic);
   to.number(detail::model_version);
-  detail::write(to, recognizer.options_, recognizer.codebook_);
+  detail::write(to, recognizer.options(), detail::RecognizerAccess::codebook(recognizer));
   to.number(detail::checksum(bytes.data(), bytes.size()));
   return Status::ok;
 }
@@ -216,9 +221,12 @@ inline void write(ModelWriter& to, const RecognizerOptions& options, const Codeb
   if (checksum.number<std::uint64_t>() != detail::checksum(bytes, checked_bytes)) return Status::damaged_model;
 
   Recognizer loaded;
+  detail::Codebook& codebook = detail::RecognizerAccess::codebook(loaded);
+  RecognizerOptions options;
   detail::ModelReader body(bytes + header_bytes, checked_bytes - header_bytes);
-  if (!detail::read(body, loaded.options_, loaded.codebook_)) return Status::damaged_model;
-  if (loaded.codebook_.layout != layout) return Status::other_descriptor;
+  if (!detail::read(body, options, codebook)) return Status::damaged_model;
+  if (codebook.layout != layout) return Status::other_descriptor;
+  loaded.set_options(options);
   out = std::move(loaded);
   return Status::ok;
 }
@@ -243,5 +251,5 @@ inline void write(ModelWriter& to, const RecognizerOptions& options, const Codeb
   return file.eof() ? load(bytes.data(), bytes.size(), layout, out) : Status::no_file;
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -8,11 +8,12 @@
 #include "../base/unfused.hpp"
 #include "../base/unroll.hpp"
 #include "../cloud/cloud.hpp"
+#include "../cloud/point_lanes.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// Smallest and largest coordinate along each axis.
 struct Extent {
@@ -85,7 +86,7 @@ struct GridBox {
   [[nodiscard]] float gap(int axis, float v, std::uint32_t other) const noexcept {
     const std::uint32_t own = cell(axis, v);
     if (other == own) return 0.0f;
-    const float near_edge = low[axis] + rounded(static_cast<float>(other < own ? other + 1 : other) * cell_size);
+    const float near_edge = low[axis] + unfused(static_cast<float>(other < own ? other + 1 : other) * cell_size);
     const float distance = (other < own ? v - near_edge : near_edge - v) - rounding[axis];
     return distance > 0.0f ? distance : 0.0f;
   }
@@ -104,9 +105,9 @@ struct GridBox {
                              float& half_chord) const noexcept {
     const float gap_y = gap(1, center.y, y);
     const float gap_z = gap(2, center.z, z);
-    const float squared = (rounded(reach * reach) - rounded(gap_y * gap_y)) - rounded(gap_z * gap_z);
+    const float squared = (unfused(reach * reach) - unfused(gap_y * gap_y)) - unfused(gap_z * gap_z);
     if (!(squared >= 0.0f)) return false;
-    half_chord = simd::root(squared);
+    half_chord = simd::sqrt(squared);
     return true;
   }
 
@@ -177,8 +178,8 @@ template <class Index>
   std::size_t above = slices[last];
   for (; below <= valid / 128 && first < last; below += slices[first]) ++first;
   for (; above <= valid / 128 && first < last; above += slices[last]) --last;
-  extent.low[axis] = low + rounded(static_cast<float>(first) * width);
-  extent.high[axis] = low + rounded(static_cast<float>(last + 1) * width);
+  extent.low[axis] = low + unfused(static_cast<float>(first) * width);
+  extent.high[axis] = low + unfused(static_cast<float>(last + 1) * width);
   return 2 * (last + 1 - first) <= count;
 }
 
@@ -212,6 +213,5 @@ inline void fit_box(const Extent& extent, float cell_size, std::size_t capacity,
   }
 }
 
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

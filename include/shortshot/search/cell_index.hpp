@@ -12,13 +12,14 @@
 #include "../status.hpp"
 #include "cell_sort.hpp"
 #include "neighborhood.hpp"
+#include "radius.hpp"
 
 namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+inline namespace SHORTSHOT_CODE {
 
-/// The index itself, in memory that somebody else owns; a search (see brute.hpp for the concept). Trivial type: build()
-/// before the first gather(). The cloud and the memory must outlive it. `Index` may be uint16_t for clouds of up to
-/// 65,535 points, invalid ones included.
+/// The index itself, in memory that somebody else owns; a search (see search.hpp for the concept). Trivial type:
+/// build() before the first gather(). The cloud and the memory must outlive it. `Index` may be uint16_t for clouds of
+/// up to 65,535 points, invalid ones included.
 template <class Index = std::uint32_t>
 class GridIndex {
   static_assert(std::is_same<Index, std::uint16_t>::value || std::is_same<Index, std::uint32_t>::value,
@@ -87,5 +88,5 @@ class StaticGrid {
   Index cell_end_[MaxCells];
 };
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

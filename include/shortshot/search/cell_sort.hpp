@@ -8,13 +8,18 @@
 #include "../base/simd.hpp"
 #include "../base/unfused.hpp"
 #include "../cloud/cloud.hpp"
+#include "../cloud/point_lanes.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../status.hpp"
 #include "cell_box.hpp"
 #include "neighborhood.hpp"
+#include "offer.hpp"
 #include "offer_run.hpp"
+#include "radius.hpp"
 
 namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
 
 /// Memory of a GridIndex, borrowed from the caller: `point_capacity` elements of `order`, `cell_capacity` of
 /// `cell_end`. `xyz`, if not null, has 3 * point_capacity floats and receives the sorted points' coordinates, all x,
@@ -29,8 +34,11 @@ struct GridMemory {
   std::size_t cell_capacity;
 };
 
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// What a search reads of a grid's memory.
 template <class Index>
@@ -96,12 +104,12 @@ class Grid {
   template <class Neighbors>
   [[nodiscard]] Status gather(const Contents& contents, const Point& center, Radius radius,
                               Neighbors& out) const noexcept {
-    clear(out);
+    clear(out, center);
     if (status() != Status::ok) return status();
     if (!is_finite(center)) return Status::ok;
     Collector<Neighbors> found = out;
     // The margin covers the rounding of d2, of the gaps and of the chord: each row gets all cells it needs.
-    const float reach = rounded(radius.value * 1.000002f);
+    const float reach = unfused(radius.value * 1.000002f);
     const CellRange y = box_.range(1, center.y, reach);
     const CellRange z = box_.range(2, center.z, reach);
     CellRange x = box_.range(0, center.x, reach);
@@ -146,9 +154,9 @@ class Grid {
   }
 
   [[nodiscard]] Status fit(float cell_size, const Memory& memory) noexcept {
-    const Status usable = check(cloud_);
+    const Status usable = validate(cloud_);
     if (usable != Status::ok) return usable;
-    if (check(Radius(cell_size)) != Status::ok) return Status::bad_radius;
+    if (validate(Radius(cell_size)) != Status::ok) return Status::bad_radius;
     if (memory.cell_capacity == 0) return Status::out_of_memory;
 
     Extent extent;
@@ -253,7 +261,5 @@ class Grid {
   Status status_;
 };
 
-}  // namespace detail
-
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

@@ -10,12 +10,13 @@
 #include "../status.hpp"
 #include "cell_index.hpp"
 #include "neighborhood.hpp"
+#include "radius.hpp"
 
 namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+inline namespace SHORTSHOT_CODE {
 
 /// A fixed-radius grid that owns its memory: 16 bytes a valid point and 4 a cell, with as many cells as the cloud's box
-/// holds, but at most four a point (and 4,096). A search (see brute.hpp); the cloud must outlive it. build() again for
+/// holds, but at most four a point (and 4,096). A search (see search.hpp); the cloud must outlive it. build() again for
 /// the next frame: its memory is reused. Queries are thread-safe.
 class GridSearch {
  public:
@@ -27,7 +28,7 @@ class GridSearch {
 
   /// See GridIndex::build(); may throw std::bad_alloc.
   [[nodiscard]] Status build(const CloudView& cloud, float radius) {
-    const std::size_t points = check(cloud) == Status::ok ? cloud.size : 0;  // a bad view says anything of its size
+    const std::size_t points = validate(cloud) == Status::ok ? cloud.size : 0;  // a bad view says anything of its size
     const std::size_t cells = 4 * points + 4096;
     if (cell_end_.size() < planning_cells) cell_end_.resize(planning_cells);
     grid_ = {};  // and so it stays if there is no memory
@@ -66,5 +67,5 @@ class GridSearch {
   std::vector<float> xyz_;
 };
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "../cloud/cloud.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../status.hpp"
 #include "neighborhood.hpp"
+#include "offer.hpp"
+#include "radius.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// The valid points of a cloud, as nanoflann wants to see them: NaN would spoil the tree.
 struct NanoflannCloud {
@@ -61,9 +63,13 @@ class NanoflannSink {
   Neighbors& out_;
 };
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
 
-/// A k-d tree over a cloud; a search (see brute.hpp). The cloud must outlive it. Queries are thread-safe.
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// A k-d tree over a cloud; a search (see search.hpp). The cloud must outlive it. Queries are thread-safe.
 class NanoflannSearch {
  public:
   /// Builds the tree: O(n log n), allocates. `leaf_size` is the most points in a leaf. An empty or bad view gives a
@@ -77,7 +83,7 @@ class NanoflannSearch {
   NanoflannSearch& operator=(const NanoflannSearch&) = delete;
 
   [[nodiscard]] Status status() const noexcept {
-    const Status usable = check(points_.cloud);
+    const Status usable = validate(points_.cloud);
     return usable == Status::ok && points_.valid.empty() ? Status::empty_cloud : usable;
   }
 
@@ -85,13 +91,13 @@ class NanoflannSearch {
 
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
-    clear(out);
+    extend::clear(out, center);
     if (status() != Status::ok) return status();
     if (!is_finite(center)) return Status::ok;
     detail::NanoflannSink<Neighbors> sink(points_, center, radius, out);
     const float query[3] = {center.x, center.y, center.z};
     tree_.findNeighbors(sink, query, {});  // {}: SearchParams up to 1.4, SearchParameters from 1.5 on
-    return outcome(out);
+    return extend::outcome(out);
   }
 
  private:
@@ -100,9 +106,9 @@ class NanoflannSearch {
 
   [[nodiscard]] static std::vector<std::uint32_t> valid_points(const CloudView& cloud) {
     std::vector<std::uint32_t> valid;
-    if (check(cloud) != Status::ok) return valid;
+    if (validate(cloud) != Status::ok) return valid;
     valid.reserve(cloud.size);
-    for_each_valid(cloud, [&](std::size_t i, const Point&) { valid.push_back(static_cast<std::uint32_t>(i)); });
+    extend::for_each_valid(cloud, [&](std::size_t i, const Point&) { valid.push_back(static_cast<std::uint32_t>(i)); });
     return valid;
   }
 
@@ -110,5 +116,5 @@ class NanoflannSearch {
   Tree tree_;
 };
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

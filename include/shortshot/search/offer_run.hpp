@@ -8,10 +8,10 @@
 #include "../cloud/cloud.hpp"
 #include "../config.hpp"
 #include "neighborhood.hpp"
+#include "offer.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// Points in an order of their own: all x, then all y, then all z; and where they stand in the cloud.
 template <class Index>
@@ -86,6 +86,5 @@ inline void offer_run(const SortedPoints<Index>& points, std::size_t i, std::siz
   out.size = size;
 }
 
-}  // namespace detail
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

@@ -8,13 +8,15 @@
 #include "../base/math.hpp"
 #include "../base/unfused.hpp"
 #include "../cloud/cloud.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../status.hpp"
 #include "neighborhood.hpp"
+#include "offer.hpp"
+#include "radius.hpp"
 
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// pixel = focal * (x / z) + center, for one direction of the image; no valid point is farther than `error` from it.
 struct Projection {
@@ -29,9 +31,13 @@ struct PixelRange {
   std::size_t last;
 };
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
 
-/// Search of an organized cloud by projecting the support sphere into the image; a search (see brute.hpp). The camera
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// Search of an organized cloud by projecting the support sphere into the image; a search (see search.hpp). The camera
 /// need not be known: build() fits a pinhole to the cloud and keeps the largest deviation as the window's margin, so
 /// that the neighbors are exactly those of every other search. Trivial type; the cloud must outlive it.
 class OrganizedSearch {
@@ -53,18 +59,18 @@ class OrganizedSearch {
 
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
-    clear(out);
+    extend::clear(out, center);
     if (status() != Status::ok) return status();
-    const float reach = rounded(radius.value * 1.000001f);  // covers the rounding of d2
+    const float reach = extend::unfused(radius.value * 1.000001f);  // covers the rounding of d2
     const detail::PixelRange columns = window(columns_, center.x, center.z, reach, cloud_.width);
     const detail::PixelRange rows = window(rows_, center.y, center.z, reach, cloud_.height);
     for (std::size_t v = rows.first; v < rows.last; ++v) {
       for (std::size_t u = columns.first; u < columns.last; ++u) {
         const std::size_t i = v * cloud_.width + u;
-        offer(out, point(cloud_, i), static_cast<std::uint32_t>(i), center, radius.squared);
+        extend::offer(out, point(cloud_, i), static_cast<std::uint32_t>(i), center, radius.squared);
       }
     }
-    return outcome(out);
+    return extend::outcome(out);
   }
 
  private:
@@ -76,10 +82,10 @@ class OrganizedSearch {
     if (!(near * far > 0.0f)) return {0, pixels};
     const float corners[4] = {(center - reach) / near, (center - reach) / far, (center + reach) / near,
                               (center + reach) / far};
-    float low = rounded(p.focal * corners[0]) + p.center;
+    float low = extend::unfused(p.focal * corners[0]) + p.center;
     float high = low;
     for (const float corner : corners) {
-      const float pixel = rounded(p.focal * corner) + p.center;
+      const float pixel = extend::unfused(p.focal * corner) + p.center;
       low = pixel < low ? pixel : low;
       high = pixel > high ? pixel : high;
     }
@@ -93,7 +99,7 @@ class OrganizedSearch {
   /// Calls f(column, row, x / z, y / z) for each valid point.
   template <class Function>
   void for_each_pixel(Function f) const noexcept {
-    for_each_valid(cloud_, [&](std::size_t i, const Point& p) {
+    extend::for_each_valid(cloud_, [&](std::size_t i, const Point& p) {
       const std::size_t row = i / cloud_.width;
       const std::size_t column = i % cloud_.width;
       f(static_cast<float>(column), static_cast<float>(row), p.x / p.z, p.y / p.z);
@@ -101,7 +107,7 @@ class OrganizedSearch {
   }
 
   [[nodiscard]] Status fit() noexcept {
-    const Status usable = check(cloud_);
+    const Status usable = validate(cloud_);
     if (usable != Status::ok) return usable;
     if (cloud_.height < 2 || cloud_.width < 2 || cloud_.size / cloud_.width != cloud_.height ||
         cloud_.size % cloud_.width != 0) {
@@ -109,7 +115,7 @@ class OrganizedSearch {
     }
     bool front = false;
     bool behind = false;
-    for_each_valid(cloud_, [&](std::size_t, const Point& p) {
+    extend::for_each_valid(cloud_, [&](std::size_t, const Point& p) {
       front = front || p.z > 0.0f;
       behind = behind || !(p.z > 0.0f);
     });
@@ -148,17 +154,17 @@ class OrganizedSearch {
       mean_pixel += (pixel - mean_pixel) / count;
     }
     void add_to_slope(float slope, float pixel) noexcept {
-      variance += rounded((slope - mean_slope) * (slope - mean_slope));
-      covariance += rounded((slope - mean_slope) * (pixel - mean_pixel));
+      variance += extend::unfused((slope - mean_slope) * (slope - mean_slope));
+      covariance += extend::unfused((slope - mean_slope) * (pixel - mean_pixel));
     }
     [[nodiscard]] detail::Projection projection() const noexcept {
       const float focal = variance > 0.0f ? covariance / variance : 0.0f;
-      return {focal, mean_pixel - rounded(focal * mean_slope), 0.0f};
+      return {focal, mean_pixel - extend::unfused(focal * mean_slope), 0.0f};
     }
   };
 
   static void widen(detail::Projection& p, float slope, float pixel) noexcept {
-    const float deviation = pixel - (rounded(p.focal * slope) + p.center);
+    const float deviation = pixel - (extend::unfused(p.focal * slope) + p.center);
     const float magnitude = deviation < 0.0f ? 0.0f - deviation : deviation;
     if (!(magnitude <= p.error)) p.error = magnitude;
   }
@@ -169,5 +175,5 @@ class OrganizedSearch {
   detail::Projection rows_;
 };
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

@@ -14,7 +14,7 @@
 #include "../config.hpp"
 
 namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+inline namespace SHORTSHOT_TYPES {
 
 /// A descriptor D of D::size values as as many bits: bit j is bit j % 8 of byte j / 8, the bits behind the last one are
 /// zero. A trivial type of alignment 1: 44 bytes for SHOT-352. `Group` values (2 to 8; 4 in the paper) are looked at
@@ -27,7 +27,11 @@ struct BinaryDescriptor {
   std::uint8_t bytes[size_bytes];
 };
 
-namespace detail {
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// All subsets of a group, the one that B-SHOT prefers last: the whole group, then those that are tried, from the last
 /// one to the first, then the empty one. Bit i of a subset stands for value i.
@@ -170,7 +174,11 @@ inline void binarize_groups(const float* values, std::uint8_t* bytes) noexcept {
 #endif
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// The B-SHOT of D::size descriptor values (not negative, of any scale: only ratios count). In each group of `Group`
 /// consecutive values, with S their sum: no bits if all are zero; else the bits of the first subset, in the order of
@@ -223,5 +231,5 @@ template <class D, int Group>
   return hamming_distance(a.bytes, b.bytes, sizeof a.bytes);
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

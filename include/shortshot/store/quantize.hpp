@@ -6,10 +6,11 @@
 #include <cstdint>
 
 #include "../base/unfused.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
 
 namespace shortshot {
-inline namespace SHORTSHOT_ISA {
+inline namespace SHORTSHOT_TYPES {
 
 /// A descriptor D of D::size values, each as its multiple of `step`: 0 to 255, so that values from 255/512 on are all
 /// the same. A trivial type of alignment 1: 336 bytes for SCSH-336.
@@ -34,18 +35,26 @@ struct ByteDescriptor {
   std::uint8_t values[size_bytes];
 };
 
-namespace detail {
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// The number of whole steps that is nearest, halves upwards. Compared before it is converted, and so that NaN becomes
 /// 0.
 [[nodiscard]] inline std::uint8_t byte_of(float value) noexcept {
-  const float half_steps = rounded(value * 1024.0f);
+  const float half_steps = unfused(value * 1024.0f);
   if (!(half_steps > 0.0f)) return 0;
   const std::int32_t whole_steps = half_steps < 510.0f ? static_cast<std::int32_t>(half_steps + 1.0f) / 2 : 255;
   return static_cast<std::uint8_t>(whole_steps);
 }
 
-}  // namespace detail
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
 
 /// The D::size values of a descriptor as bytes. NaN and what is negative become 0, all from 255/512 on, infinity too,
 /// 255. No allocation, no error, reentrant; the same bytes on every machine.
@@ -73,5 +82,5 @@ template <class D>
   return sum;
 }
 
-}  // namespace SHORTSHOT_ISA
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot

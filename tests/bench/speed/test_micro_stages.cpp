@@ -93,7 +93,7 @@ TEST_CASE("a workload holds what its stages need, and what it says of it is true
   for (const GatheredKeyPoint& k : w.chosen) {
     CHECK(k.neighborhood.size == k.neighborhood.found);
     CHECK(k.neighborhood.dx == k.memory.empty().dx);
-    CHECK(shortshot::check(k.frame) == shortshot::Status::ok);
+    CHECK(shortshot::validate(k.frame) == shortshot::Status::ok);
     neighbors += k.neighborhood.size;
     most = std::max(most, k.neighborhood.size);
   }

@@ -51,7 +51,8 @@ void compare(const Task& task, const std::vector<NaivePart>& parts, OracleDescri
     if (ss::estimate_frame(n, task.radius, frame) != ss::Status::ok) continue;
     REQUIRE(naive.estimate_frame(key, theirs, their_frame));
     ++described;
-    alike += ss::dot(frame.x, their_frame.x) > 0.999f && ss::dot(frame.z, their_frame.z) > 0.999f ? 1 : 0;
+    alike +=
+        ss::extend::dot(frame.x, their_frame.x) > 0.999f && ss::extend::dot(frame.z, their_frame.z) > 0.999f ? 1 : 0;
 
     const auto colors = ss::detail::colors_of<D>(view, ss::color(view, key));
     REQUIRE(ss::describe<D>(n, colors, frame, task.radius, our_rows.data() + row * size) == ss::Status::ok);

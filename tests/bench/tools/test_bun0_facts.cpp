@@ -23,7 +23,7 @@ namespace golden = shortshot_bench::golden;
 struct Cloud {
   std::vector<float> xyz;
   std::vector<std::uint8_t> rgb;
-  std::vector<ss::Normal> normals;
+  std::vector<ss::SurfaceNormal> normals;
 
   ss::CloudView view() const {
     return ss::with_normals(ss::view_xyz_rgb(xyz.data(), rgb.data(), normals.size()), normals.data());
@@ -49,7 +49,8 @@ Cloud pcl_cloud(const golden::Case& bun0_case) {
   cloud.rgb.resize(3 * bun0::pcl_setting.points);
   const ss::CloudView view = ss::view_xyz(cloud.xyz.data(), bun0::pcl_setting.points);
   const auto radius = ss::Radius::from_double(bun0::pcl_setting.normal_radius);
-  REQUIRE(ss::estimate_normals(view, ss::GridSearch(view, radius.value), radius, cloud.normals) == ss::Status::ok);
+  REQUIRE(ss::estimate_normals(view, ss::GridSearch(view, radius.value), radius, ss::Viewpoint::towards({}),
+                               cloud.normals) == ss::Status::ok);
   return cloud;
 }
 

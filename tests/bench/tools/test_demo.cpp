@@ -87,13 +87,13 @@ TEST_CASE(
   options.descriptor = "shot352";
   options.radius = 0.06f;
   const auto has_normals_within = [&](float radius) {
-    std::vector<shortshot::Normal> expected;
+    std::vector<shortshot::SurfaceNormal> expected;
     const shortshot::GridSearch search(view, radius);
     const shortshot::Point camera{0.1f, -0.2f, -0.3f};
-    REQUIRE(shortshot::estimate_normals(view, search, radius, expected, camera) == shortshot::Status::ok);
+    REQUIRE(shortshot::estimate_normals(view, search, radius, camera, expected) == shortshot::Status::ok);
     const DemoResult result = run_demo(scene, options);
     REQUIRE(result.normals.size() == expected.size());
-    return std::memcmp(result.normals.data(), expected.data(), expected.size() * sizeof(shortshot::Normal)) == 0;
+    return std::memcmp(result.normals.data(), expected.data(), expected.size() * sizeof(shortshot::SurfaceNormal)) == 0;
   };
   CHECK(has_normals_within(0.015f));
   options.normal_radius = 0.02f;

@@ -1,4 +1,4 @@
-// What Features<D, PackedLab> costs in accuracy on the generated scene: as PackedLab's comment states it.
+// What Extractor<D, PackedLab> costs in accuracy on the generated scene: as PackedLab's comment states it.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -25,9 +25,10 @@ Difference difference_by_packing() {
   std::vector<std::uint32_t> keypoints;
   REQUIRE(shortshot::sample_uniform(cloud, 0.04f, keypoints) == shortshot::Status::ok);
   shortshot::Features<D> exact;
-  shortshot::Features<D, shortshot::PackedLab> packed;
+  shortshot::Extractor<D, shortshot::PackedLab> extractor;
+  shortshot::Features<D> packed;
   REQUIRE(shortshot::extract(cloud, search, keypoints, 0.04f, exact) == shortshot::Status::ok);
-  REQUIRE(shortshot::extract(cloud, search, keypoints, 0.04f, packed) == shortshot::Status::ok);
+  REQUIRE(extractor.extract(cloud, search, keypoints, 0.04f, packed) == shortshot::Status::ok);
   REQUIRE(exact.status == packed.status);
   Difference result;
   std::size_t described = 0;

@@ -40,7 +40,7 @@ TEST_CASE("kernel parts: chunks take every neighbor exactly once, in at most fou
 
 TEST_CASE("kernel parts: the votes of as many neighbors as there may be fit int32, and positions are finer") {
   for (const std::uint32_t n : {1u, 2u, 3u, 549u, 1u << 16, (1u << 16) + 1, ss::max_neighbors}) {
-    const ss::VoteUnit unit = detail::vote_unit(n, ss::Scsh336::position_bits, 2);
+    const ss::extend::VoteUnit unit = detail::vote_unit(n, ss::Scsh336::position_bits, 2);
     CHECK(unit.one == std::int32_t{1} << unit.bits);
     CHECK(std::int64_t{4} * unit.one * n <= std::int64_t{1} << 30);
     CHECK(unit.bits < ss::Scsh336::position_bits);

@@ -10,7 +10,7 @@
 namespace {
 
 using namespace unit;
-namespace simd = ss::simd;
+namespace simd = ss::extend::simd;
 
 constexpr std::size_t lanes = simd::lanes;
 

@@ -29,15 +29,15 @@ struct Eigen3 {
 /// One matrix's eigenvectors, from the last lane; the others hold another matrix.
 Eigen3 decompose(const Symmetric3& m) {
   const auto lanes_of = [](float last, float other) {
-    float numbers[ss::simd::lanes];
+    float numbers[ss::extend::simd::lanes];
     std::fill(std::begin(numbers), std::end(numbers), other);
-    numbers[ss::simd::lanes - 1] = last;
-    return ss::simd::load(numbers);
+    numbers[ss::extend::simd::lanes - 1] = last;
+    return ss::extend::simd::load(numbers);
   };
-  const auto last_of = [](ss::simd::F32 lanes) {
-    float numbers[ss::simd::lanes];
-    ss::simd::store(numbers, lanes);
-    return numbers[ss::simd::lanes - 1];
+  const auto last_of = [](ss::extend::simd::F32 lanes) {
+    float numbers[ss::extend::simd::lanes];
+    ss::extend::simd::store(numbers, lanes);
+    return numbers[ss::extend::simd::lanes - 1];
   };
   const ss::detail::EigenLanes lanes =
       ss::detail::decompose({{lanes_of(m.xx, 3.0f), lanes_of(m.xy, 0.125f), lanes_of(m.xz, 0.25f), lanes_of(m.yy, 2.0f),

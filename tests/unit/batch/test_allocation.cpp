@@ -83,18 +83,19 @@ struct Frame {
 };
 
 /// Allocations of each frame but the first.
-template <class Features, class Threads>
+template <class D, class Color = ss::Lab, class Threads>
 std::vector<std::size_t> steady_allocations(Threads&& threads) {
   std::vector<Frame> frames;
   for (std::uint32_t moment = 0; moment < 8; ++moment) frames.emplace_back(moment);
   std::vector<std::size_t> counts;
   counts.reserve(frames.size());
   ss::GridSearch search;
-  Features features;
+  ss::Extractor<D, Color> extractor;
+  ss::Features<D> features;
   for (const Frame& frame : frames) {
     const std::size_t before = allocations;
     const Status built = search.build(frame.cloud.view(), radius);
-    const Status status = ss::extract(frame.cloud.view(), search, frame.keypoints, radius, features, threads);
+    const Status status = extractor.extract(frame.cloud.view(), search, frame.keypoints, radius, features, threads);
     counts.push_back(allocations - before);
     REQUIRE(built == Status::ok);
     REQUIRE(status == Status::ok);
@@ -109,11 +110,11 @@ const std::vector<std::size_t> none(7, 0);
 }  // namespace
 
 TEST_CASE("allocation: one thread allocates nothing from the second frame on") {
-  CHECK(steady_allocations<ss::Features<ss::Scsh336>>(1) == none);
-  CHECK(steady_allocations<ss::Features<ss::Scsh336, ss::PackedLab>>(1) == none);
-  CHECK(steady_allocations<ss::Features<ss::Ssh32>>(1) == none);
-  CHECK(steady_allocations<ss::Features<ss::Shot352>>(1) == none);
-  CHECK(steady_allocations<ss::Features<ss::Cshot1344>>(1) == none);
+  CHECK(steady_allocations<ss::Scsh336>(1) == none);
+  CHECK(steady_allocations<ss::Scsh336, ss::PackedLab>(1) == none);
+  CHECK(steady_allocations<ss::Ssh32>(1) == none);
+  CHECK(steady_allocations<ss::Shot352>(1) == none);
+  CHECK(steady_allocations<ss::Cshot1344>(1) == none);
 }
 
 TEST_CASE("allocation: the kernel allocates nothing, not even at first") {
@@ -135,14 +136,14 @@ TEST_CASE("allocation: the kernel allocates nothing, not even at first") {
 
 TEST_CASE("allocation: an executor's threads allocate nothing from the second frame on") {
   ThreadPool pool(3);
-  CHECK(steady_allocations<ss::Features<ss::Scsh336>>(pool) == none);
-  CHECK(steady_allocations<ss::Features<ss::Scsh336, ss::PackedLab>>(pool) == none);
-  CHECK(steady_allocations<ss::Features<ss::Ssh32>>(pool) == none);
-  CHECK(steady_allocations<ss::Features<ss::Cshot1344>>(pool) == none);
+  CHECK(steady_allocations<ss::Scsh336>(pool) == none);
+  CHECK(steady_allocations<ss::Scsh336, ss::PackedLab>(pool) == none);
+  CHECK(steady_allocations<ss::Ssh32>(pool) == none);
+  CHECK(steady_allocations<ss::Cshot1344>(pool) == none);
 }
 
 TEST_CASE("allocation: threads that are started are the only thing that is allocated") {
-  for (const std::size_t count : steady_allocations<ss::Features<ss::Ssh32>>(3)) {
+  for (const std::size_t count : steady_allocations<ss::Ssh32>(3)) {
     CHECK(count > 0);   // the count is seen to work on other threads' behalf
     CHECK(count <= 8);  // two threads and their list, counted once by operator new and once by malloc; C runtime's own
   }

@@ -19,16 +19,16 @@ namespace {
 using namespace unit;
 using ss::Status;
 
-using Normals = std::vector<ss::Normal>;
+using Normals = std::vector<ss::SurfaceNormal>;
 
 bool same_bits(const Normals& a, const Normals& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(ss::Normal)) == 0;
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(ss::SurfaceNormal)) == 0;
 }
 
 template <class Search>
 Normals estimated(const ss::CloudView& view, const Search& search, float radius, ss::Point viewpoint = {}) {
   Normals normals;
-  REQUIRE(ss::estimate_normals(view, search, radius, normals, viewpoint) == Status::ok);
+  REQUIRE(ss::estimate_normals(view, search, radius, ss::Viewpoint::towards(viewpoint), normals) == Status::ok);
   REQUIRE(normals.size() == view.size);
   return normals;
 }
@@ -44,9 +44,8 @@ Normals expected(const ss::CloudView& view, float radius, ss::Point viewpoint = 
     if (!ss::is_finite(p)) continue;
     ss::Neighborhood n = room.neighborhood();
     REQUIRE(brute.gather(p, radius, n) == Status::ok);
-    const float towards[3] = {viewpoint.x - p.x, viewpoint.y - p.y, viewpoint.z - p.z};
-    ss::Normal normal{};
-    if (ss::estimate_normal(n, radius, towards, normal) == Status::ok) normals[i] = normal;
+    ss::SurfaceNormal normal{};
+    if (ss::estimate_normal(n, radius, normal, ss::Viewpoint::towards(viewpoint)) == Status::ok) normals[i] = normal;
   }
   return normals;
 }
@@ -136,12 +135,12 @@ TEST_CASE("estimate_normals: any number of threads and any executor gives the sa
   const Normals normals = estimated(cloud.view(), grid, 0.01f);
   Normals others(3);
   for (const int threads : {-1, 0, 2, 3, 64}) {
-    REQUIRE(ss::estimate_normals(cloud.view(), grid, 0.01f, others, {}, threads) == Status::ok);
+    REQUIRE(ss::estimate_normals(cloud.view(), grid, 0.01f, ss::Viewpoint::towards({}), others, threads) == Status::ok);
     CHECK(same_bits(others, normals));
   }
   ThreadPool pool(3);
   for (int repeat = 0; repeat < 5; ++repeat) {
-    REQUIRE(ss::estimate_normals(cloud.view(), grid, 0.01f, others, {}, pool) == Status::ok);
+    REQUIRE(ss::estimate_normals(cloud.view(), grid, 0.01f, ss::Viewpoint::towards({}), others, pool) == Status::ok);
     CHECK(same_bits(others, normals));
   }
 }
@@ -166,7 +165,7 @@ TEST_CASE("estimate_normals: points without a normal get NaN in all three") {
   cloud.add(0.0f, infinity, 0.0f);
   const Normals normals = estimated(cloud.view(), ss::GridSearch(cloud.view(), 0.02f), 0.02f);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const ss::Normal& n = normals[i];
+    const ss::SurfaceNormal& n = normals[i];
     const bool has_one = i < 1500 || (i >= 1620 && i < 1670);
     REQUIRE(std::isfinite(n.x) == has_one);
     REQUIRE(std::isfinite(n.y) == has_one);
@@ -180,16 +179,16 @@ TEST_CASE("estimate_normals: into a view, with a stride") {
   CHECK_FALSE(ss::has_normals(cloud.view()));
   const ss::CloudView view = ss::with_normals(cloud.view(), normals.data());
   REQUIRE(ss::has_normals(view));
-  REQUIRE(ss::check(view) == Status::ok);
+  REQUIRE(ss::validate(view) == Status::ok);
   struct Padded {
-    ss::Normal normal;
+    ss::SurfaceNormal normal;
     float curvature;
   };
   std::vector<Padded> padded;
-  for (const ss::Normal& n : normals) padded.push_back({n, 7.0f});
+  for (const ss::SurfaceNormal& n : normals) padded.push_back({n, 7.0f});
   const ss::CloudView strided = ss::with_normals(cloud.view(), &padded[0].normal, sizeof(Padded));
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    for (const ss::Normal& n : {ss::normal(view, i), ss::normal(strided, i)}) {
+    for (const ss::SurfaceNormal& n : {ss::normal(view, i), ss::normal(strided, i)}) {
       REQUIRE(std::memcmp(&n, &normals[i], sizeof n) == 0);
     }
   }
@@ -202,7 +201,7 @@ TEST_CASE("estimate_normals: what cannot be estimated has a status and no normal
   const auto status = [](const ss::CloudView& view, const ss::GridSearch& search, float radius,
                          ss::Point viewpoint = {}) {
     Normals normals(3);
-    const Status result = ss::estimate_normals(view, search, radius, normals, viewpoint);
+    const Status result = ss::estimate_normals(view, search, radius, ss::Viewpoint::towards(viewpoint), normals);
     CHECK(normals.empty());
     return result;
   };
@@ -227,5 +226,5 @@ TEST_CASE("estimate_normals: coordinates at the ends of float's range do no harm
     cloud.add(sign * 3e38f, -sign * 3e38f, static_cast<float>(k));
   }
   const Normals normals = estimated(cloud.view(), ss::BruteSearch{cloud.view()}, 5.0f);
-  for (const ss::Normal& n : normals) CHECK(std::isnan(n.x));  // two lines
+  for (const ss::SurfaceNormal& n : normals) CHECK(std::isnan(n.x));  // two lines
 }

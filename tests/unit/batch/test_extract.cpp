@@ -93,7 +93,7 @@ TEST_CASE("extract: the viewpoint and the frame's own radius are passed on") {
   const ss::Point behind{0.0f, 0.0f, 2.0f};
   ss::Support support = radius;
   support.frame_radius = 0.03f;
-  support.viewpoint = &behind;
+  support.viewpoint = ss::Viewpoint::towards(behind);
   ss::Features<D> features;
   const std::vector<std::uint32_t> keypoints{1, 2, 3};
   REQUIRE(ss::extract(cloud.view(), ss::GridSearch(cloud.view(), radius), keypoints, support, features) == Status::ok);

@@ -23,7 +23,7 @@ TestCloud sample() { return curved_surface(1, count); }
 /// Reads every point and color through the view, and describes one, and expects the sample's own bits.
 void check_reads_as_sample(const ss::CloudView& view, bool colors = true) {
   const TestCloud cloud = sample();
-  REQUIRE(ss::check(view) == Status::ok);
+  REQUIRE(ss::validate(view) == Status::ok);
   REQUIRE(view.size == count);
   REQUIRE(ss::has_colors(view) == colors);
   CHECK(view.width * view.height == count);
@@ -130,11 +130,11 @@ void set_normals(std::vector<N>& structs) {
 }
 
 void check_normals(const ss::CloudView& view) {
-  REQUIRE(ss::check(view) == Status::ok);
+  REQUIRE(ss::validate(view) == Status::ok);
   REQUIRE(ss::has_normals(view));
   REQUIRE(view.size == count);
   for (std::size_t i = 0; i < count; ++i) {
-    const ss::Point n = ss::read(view.normals, i);
+    const ss::Point n = ss::extend::read(view.normals, i);
     REQUIRE((n.x == normal_at(i).x && n.y == normal_at(i).y && n.z == normal_at(i).z));
   }
 }
@@ -244,7 +244,7 @@ TEST_CASE("views: normals for another number of points are refused") {
   const Points points = sample_as<Padded>(), one(1), none;
   const auto refused = [](const Points& p, std::size_t normals) {
     const std::vector<PclNormal> n(normals);
-    return ss::check(ss::view_of(p, n));
+    return ss::validate(ss::view_of(p, n));
   };
   CHECK(refused(points, count) == Status::ok);
   CHECK(refused(points, count - 1) == Status::bad_view);
@@ -256,15 +256,15 @@ TEST_CASE("views: normals for another number of points are refused") {
 
 TEST_CASE("views: empty containers are empty clouds") {
   const Points empty;
-  CHECK(ss::check(ss::view_of(empty)) == Status::empty_cloud);
-  CHECK(ss::check(ss::view_of(static_cast<const Padded*>(nullptr), 0)) == Status::empty_cloud);
+  CHECK(ss::validate(ss::view_of(empty)) == Status::empty_cloud);
+  CHECK(ss::validate(ss::view_of(static_cast<const Padded*>(nullptr), 0)) == Status::empty_cloud);
   const PclCloud none;
-  CHECK(ss::check(ss::view_of(none)) == Status::empty_cloud);
+  CHECK(ss::validate(ss::view_of(none)) == Status::empty_cloud);
 }
 
 TEST_CASE("views: structs at a null pointer are a bad view") {
   const Padded* nowhere = nullptr;
-  CHECK(ss::check(ss::view_of(nowhere, 5)) == Status::bad_view);
+  CHECK(ss::validate(ss::view_of(nowhere, 5)) == Status::bad_view);
 }
 
 TEST_CASE("views: organized() only names another width and height") {

@@ -20,7 +20,7 @@ TestCloud sample() { return curved_surface(1, static_cast<std::size_t>(count)); 
 
 void check_reads_as_sample(const ss::CloudView& view, bool colors) {
   const TestCloud cloud = sample();
-  REQUIRE(ss::check(view) == Status::ok);
+  REQUIRE(ss::validate(view) == Status::ok);
   REQUIRE(view.size == cloud.size());
   REQUIRE(view.width == cloud.size());
   REQUIRE(view.height == 1);
@@ -98,13 +98,13 @@ TEST_CASE("eigen views: three points are columns; an empty matrix is an empty cl
   CHECK(second.y == 5.0f);
   CHECK(second.z == 8.0f);
   const ColumnPoints none(3, 0);
-  CHECK(ss::check(ss::view_eigen(none)) == Status::empty_cloud);
+  CHECK(ss::validate(ss::view_eigen(none)) == Status::empty_cloud);
 }
 
 TEST_CASE("eigen views: colors for another number of points are refused") {
   const ColumnPoints points = sample_points();
   const ColumnColors too_few = sample_colors().leftCols(count - 1);
-  CHECK(ss::check(ss::view_eigen(points, too_few)) != Status::ok);
+  CHECK(ss::validate(ss::view_eigen(points, too_few)) != Status::ok);
 }
 
 TEST_CASE("eigen views: a matrix of floats beside the points holds normals, with colors or without") {
@@ -116,7 +116,7 @@ TEST_CASE("eigen views: a matrix of floats beside the points holds normals, with
     check_reads_as_sample(view, with_colors);
     REQUIRE(ss::has_normals(view));
     for (Eigen::Index i = 0; i < count; ++i) {
-      const ss::Point n = ss::read(view.normals, static_cast<std::size_t>(i));
+      const ss::Point n = ss::extend::read(view.normals, static_cast<std::size_t>(i));
       REQUIRE((n.x == normals(0, i) && n.y == normals(1, i) && n.z == normals(2, i)));
     }
   };
@@ -126,9 +126,10 @@ TEST_CASE("eigen views: a matrix of floats beside the points holds normals, with
   check_normals(ss::view_eigen(rows, normals, colors), true);
   CHECK_FALSE(ss::has_normals(ss::view_eigen(rows, colors)));
   const ColumnPoints too_few = normals.leftCols(1), none(3, 0);
-  CHECK(ss::check(ss::view_eigen(rows, too_few)) == Status::bad_view);
-  CHECK(ss::check(ss::view_eigen(rows, colors, none)) == Status::bad_view);
-  CHECK(ss::check(ss::view_eigen(rows, none, too_few)) == Status::bad_view);  // not even as one point with one normal
+  CHECK(ss::validate(ss::view_eigen(rows, too_few)) == Status::bad_view);
+  CHECK(ss::validate(ss::view_eigen(rows, colors, none)) == Status::bad_view);
+  CHECK(ss::validate(ss::view_eigen(rows, none, too_few)) ==
+        Status::bad_view);  // not even as one point with one normal
 }
 
 TEST_CASE("eigen views: a matrix that dies at the end of the statement cannot be viewed, a map can") {

@@ -142,7 +142,7 @@ TEST_CASE("PointCloud2: normals are three fields of their own, or none") {
   REQUIRE(ss::view_point_cloud2(m, view) == Status::ok);
   REQUIRE(ss::has_normals(view));
   for (std::size_t i = 0; i < count; ++i) {
-    const ss::Point n = ss::read(view.normals, i);
+    const ss::Point n = ss::extend::read(view.normals, i);
     const ss::Point p = sample().at(i);
     REQUIRE((n.x == p.y && n.y == p.z && n.z == p.x));
   }

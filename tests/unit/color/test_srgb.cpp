@@ -12,7 +12,7 @@ using namespace unit;
 
 /// Neighboring floats are 1 apart.
 int distance_of(float a, float b) {
-  return std::abs(static_cast<int>(ss::math::bits_of(a)) - static_cast<int>(ss::math::bits_of(b)));
+  return std::abs(static_cast<int>(ss::extend::math::bits_of(a)) - static_cast<int>(ss::extend::math::bits_of(b)));
 }
 
 /// How many of the ratios above the knee have another root than the closest float, and how far off the worst one is.

@@ -96,16 +96,16 @@ TEST_CASE("stored colors: registers of colors have the bits of single ones") {
   const ss::LabColors labs{exact.data(), {}};
   const ss::PackedColors packed_labs{packed.data(), {}};
   const auto check = [](const auto& colors, const std::uint32_t* index) {
-    const ss::LabLanes lanes = ss::colors_at(colors, index);
-    float L[ss::simd::lanes], a[ss::simd::lanes], b[ss::simd::lanes];
-    ss::simd::store(L, lanes.L);
-    ss::simd::store(a, lanes.a);
-    ss::simd::store(b, lanes.b);
-    for (std::size_t k = 0; k < ss::simd::lanes; ++k) REQUIRE(same_bits({L[k], a[k], b[k]}, colors(index[k])));
+    const ss::extend::LabLanes lanes = ss::extend::colors_at(colors, index);
+    float L[ss::extend::simd::lanes], a[ss::extend::simd::lanes], b[ss::extend::simd::lanes];
+    ss::extend::simd::store(L, lanes.L);
+    ss::extend::simd::store(a, lanes.a);
+    ss::extend::simd::store(b, lanes.b);
+    for (std::size_t k = 0; k < ss::extend::simd::lanes; ++k) REQUIRE(same_bits({L[k], a[k], b[k]}, colors(index[k])));
   };
   Random random(5);
   for (int repeat = 0; repeat < 1000; ++repeat) {
-    std::uint32_t index[ss::simd::lanes];
+    std::uint32_t index[ss::extend::simd::lanes];
     for (std::uint32_t& i : index) i = static_cast<std::uint32_t>(random.below(exact.size()));
     check(labs, index);
     check(packed_labs, index);
@@ -129,8 +129,9 @@ TEST_CASE("stored colors: describe() takes packed colors, with the bits that ext
   std::vector<ss::PackedLab> packed(cloud.size());
   REQUIRE(ss::convert_colors<ss::PublishedLab>(cloud.view(), packed.data()) == Status::ok);
   const ss::GridSearch grid(cloud.view(), radius);
-  ss::Features<D, ss::PackedLab> features;
-  REQUIRE(ss::extract(cloud.view(), grid, std::vector<std::uint32_t>{7}, radius, features) == Status::ok);
+  ss::Extractor<D, ss::PackedLab> extractor;
+  ss::Features<D> features;
+  REQUIRE(extractor.extract(cloud.view(), grid, std::vector<std::uint32_t>{7}, radius, features) == Status::ok);
 
   Room room(cloud.size());
   ss::Neighborhood n = room.neighborhood();

@@ -59,7 +59,8 @@ static_assert(std::is_empty<ss::Scsh336>::value, "a descriptor type is no data")
 static_assert(alignof(ss::Frame) == 4 && alignof(ss::Lab) == 4 && alignof(ss::Point) == 4, "floats");
 static_assert(alignof(ss::Workspace<100>) == 4 && alignof(ss::Radius) == 4 && alignof(ss::KeyPoint) == 4, "floats");
 static_assert(alignof(ss::CloudView) == alignof(void*) && alignof(ss::Neighborhood) == alignof(void*), "pointers");
-static_assert(alignof(ss::Support) == alignof(void*) && alignof(ss::GridIndex<>) == alignof(void*), "pointers");
+static_assert(alignof(ss::Support) == 4 && alignof(ss::Viewpoint) == 4, "floats");
+static_assert(alignof(ss::GridIndex<>) == alignof(void*), "pointers");
 
 static_assert(sizeof(ss::Workspace<100>) == 2000 && sizeof(ss::Workspace<5>) == 100, "20 bytes a neighbor");
 static_assert(sizeof(ss::Frame) == 36 && sizeof(ss::Lab) == 12 && sizeof(ss::Rgb) == 3, "no padding");

@@ -95,18 +95,18 @@ Steps step_over_borders(double step) {
 }
 
 /// The unit of votes in these tests.
-constexpr ss::VoteUnit unit_of_votes{19, 1 << 19};
+constexpr ss::extend::VoteUnit unit_of_votes{19, 1 << 19};
 
-std::int32_t first_lane(const ss::simd::I32& value) {
-  std::int32_t lanes[ss::simd::lanes];
-  ss::simd::store(lanes, value);
+std::int32_t first_lane(const ss::extend::simd::I32& value) {
+  std::int32_t lanes[ss::extend::simd::lanes];
+  ss::extend::simd::store(lanes, value);
   return lanes[0];
 }
 
 /// A position in cells along an axis, split.
 template <class Voting>
-ss::Share split(const ss::Axis& axis, float cells) {
-  return Voting::split(axis, ss::simd::all_int(static_cast<std::int32_t>(cells * axis.one())), unit_of_votes);
+ss::extend::Share split(const ss::extend::Axis& axis, float cells) {
+  return Voting::split(axis, ss::extend::simd::all_int(static_cast<std::int32_t>(cells * axis.one())), unit_of_votes);
 }
 
 /// The weights of all votes of one point at a position in cells, added up.
@@ -114,12 +114,12 @@ template <class Voting, int R, int E, int A, int H>
 double sum_of_votes(float r, float e, float a, float h) {
   using Part = ss::Part<ss::SphericalGrid<R, E, A>, ss::ColorDistance<H>>;
   const float position[4] = {r, e, a, h};
-  ss::Share shares[4];
+  ss::extend::Share shares[4];
   for (int axis = 0; axis < 4; ++axis)
     shares[axis] = split<Voting>(Part::template axes<Part::values>[axis], position[axis]);
   const auto votes = Voting::template combine<4>(Part::template axes<Part::values>, shares, unit_of_votes);
   double sum = 0.0;
-  for (const ss::simd::I32& weight : votes.weight) {
+  for (const ss::extend::simd::I32& weight : votes.weight) {
     CHECK(first_lane(weight) >= 0);
     sum += first_lane(weight) / static_cast<double>(unit_of_votes.one);
   }
@@ -191,9 +191,9 @@ TEST_CASE("voting: phi of exactly +180 degrees is the last cell; its partner is 
   REQUIRE(ss::BruteSearch{cloud.view()}.gather({0.0f, 0.0f, 0.0f}, 1.0f, n) == Status::ok);
   const ss::Frame upright{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   std::vector<float> published(8), linear(8);
-  REQUIRE(ss::describe<ss::Descriptor<ss::PublishedVoting, Part>>(n, ss::NoColors{}, upright, 1.0f, published.data()) ==
+  REQUIRE(ss::describe<ss::Descriptor<ss::PublishedVoting, Part>>(n, ss::sources(), upright, 1.0f, published.data()) ==
           Status::ok);
-  REQUIRE(ss::describe<ss::Descriptor<ss::MultilinearVoting, Part>>(n, ss::NoColors{}, upright, 1.0f, linear.data()) ==
+  REQUIRE(ss::describe<ss::Descriptor<ss::MultilinearVoting, Part>>(n, ss::sources(), upright, 1.0f, linear.data()) ==
           Status::ok);
   for (std::size_t cell = 0; cell < 8; ++cell) {
     CHECK((published[cell] > 0.0f) == (cell == 7 || cell == 6));
@@ -203,14 +203,14 @@ TEST_CASE("voting: phi of exactly +180 degrees is the last cell; its partner is 
 }
 
 TEST_CASE("voting: the very middle of a cell has the lower neighbor for a partner") {
-  constexpr ss::Axis axis{4, 10, ss::Beyond::nothing, ss::BelowZero::never, 27};
+  constexpr ss::extend::Axis axis{4, 10, ss::extend::Beyond::nothing, ss::extend::BelowZero::never, 27};
   const auto check_rule = [&](auto voting) {
     using Voting = decltype(voting);
-    const ss::Share middle = split<Voting>(axis, 1.5f);
+    const ss::extend::Share middle = split<Voting>(axis, 1.5f);
     CHECK(first_lane(middle.cell) == 10);
     CHECK(first_lane(middle.step) == -10);
     CHECK(first_lane(middle.twice_partner) == 0);
-    const ss::Share above = split<Voting>(axis, std::nextafter(1.5f, 2.0f));
+    const ss::extend::Share above = split<Voting>(axis, std::nextafter(1.5f, 2.0f));
     CHECK(first_lane(above.step) == 10);
   };
   check_rule(ss::PublishedVoting{});

@@ -18,12 +18,12 @@ using ss::Status;
 constexpr ss::Point origin{0.0f, 0.0f, 0.0f};
 
 Status frame_at(const TestCloud& cloud, const ss::Point& center, float radius, ss::Frame& frame,
-                const float* towards_viewpoint = nullptr) {
+                const ss::Viewpoint& viewpoint = {}) {
   Room room(cloud.size());
   ss::Neighborhood n = room.neighborhood();
   REQUIRE(ss::BruteSearch{cloud.view()}.gather(center, radius, n) == Status::ok);
   frame = {{not_a_number}, {not_a_number}, {not_a_number}};
-  return ss::estimate_frame(n, radius, frame, towards_viewpoint);
+  return ss::estimate_frame(n, radius, frame, viewpoint);
 }
 
 bool is_zero(const ss::Frame& f) {
@@ -56,13 +56,13 @@ TEST_CASE("frame: orthonormal and right-handed, at every point of any cloud") {
       ss::Frame f{};
       REQUIRE(frame_at(cloud, cloud.at(i), 0.05f, f) == Status::ok);
       // A handful of float roundings each.
-      CHECK(ss::dot(f.x, f.x) == doctest::Approx(1.0).epsilon(1e-6));
-      CHECK(ss::dot(f.y, f.y) == doctest::Approx(1.0).epsilon(1e-6));
-      CHECK(ss::dot(f.z, f.z) == doctest::Approx(1.0).epsilon(1e-6));
-      CHECK(std::abs(ss::dot(f.x, f.z)) < 1e-6f);
+      CHECK(ss::extend::dot(f.x, f.x) == doctest::Approx(1.0).epsilon(1e-6));
+      CHECK(ss::extend::dot(f.y, f.y) == doctest::Approx(1.0).epsilon(1e-6));
+      CHECK(ss::extend::dot(f.z, f.z) == doctest::Approx(1.0).epsilon(1e-6));
+      CHECK(std::abs(ss::extend::dot(f.x, f.z)) < 1e-6f);
       const float y[3] = {f.z[1] * f.x[2] - f.z[2] * f.x[1], f.z[2] * f.x[0] - f.z[0] * f.x[2],
                           f.z[0] * f.x[1] - f.z[1] * f.x[0]};
-      CHECK(ss::dot(f.y, y) == doctest::Approx(1.0).epsilon(1e-6));
+      CHECK(ss::extend::dot(f.y, y) == doctest::Approx(1.0).epsilon(1e-6));
     }
   }
 }
@@ -119,13 +119,15 @@ TEST_CASE("frame: a viewpoint turns z towards the camera and leaves x to the vot
   Random random(5);
   int turned = 0;
   for (std::size_t i = 0; i < cloud.size(); i += 16) {
-    const float towards[3] = {random.between(-9.0f, 9.0f), random.between(-9.0f, 9.0f), random.between(-9.0f, 9.0f)};
+    const ss::Point p = cloud.at(i);
+    const ss::Point camera{random.between(-9.0f, 9.0f), random.between(-9.0f, 9.0f), random.between(-9.0f, 9.0f)};
+    const float towards[3] = {camera.x - p.x, camera.y - p.y, camera.z - p.z};
     ss::Frame by_vote{};
     ss::Frame by_view{};
     REQUIRE(frame_at(cloud, cloud.at(i), 0.05f, by_vote) == Status::ok);
-    REQUIRE(frame_at(cloud, cloud.at(i), 0.05f, by_view, towards) == Status::ok);
-    CHECK(ss::dot(towards, by_view.z) >= 0.0f);
-    const float sign = ss::dot(towards, by_vote.z) >= 0.0f ? 1.0f : -1.0f;
+    REQUIRE(frame_at(cloud, p, 0.05f, by_view, ss::Viewpoint::towards(camera)) == Status::ok);
+    CHECK(ss::extend::dot(towards, by_view.z) >= 0.0f);
+    const float sign = ss::extend::dot(towards, by_vote.z) >= 0.0f ? 1.0f : -1.0f;
     turned += sign < 0.0f ? 1 : 0;
     for (int k = 0; k < 3; ++k) {
       CHECK(by_view.x[k] == by_vote.x[k]);
@@ -213,26 +215,26 @@ TEST_CASE("frame: an exactly planar neighborhood has one, with z along the norma
   ss::Frame frame{};
   REQUIRE(frame_at(flat, {0.0f, 0.25f, 0.0f}, 0.1f, frame) == Status::ok);
   CHECK(std::abs(frame.z[1]) == 1.0f);
-  const float towards[3] = {0.0f, -1.0f, 0.0f};
-  REQUIRE(frame_at(flat, {0.0f, 0.25f, 0.0f}, 0.1f, frame, towards) == Status::ok);
+  const auto below = ss::Viewpoint::towards({0.0f, -1.0f, 0.0f});
+  REQUIRE(frame_at(flat, {0.0f, 0.25f, 0.0f}, 0.1f, frame, below) == Status::ok);
   CHECK(frame.z[1] == -1.0f);
 }
 
 TEST_CASE("frame: check() accepts rotations and refuses everything else") {
   const ss::Frame unit{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  CHECK(ss::check(unit) == Status::ok);
-  CHECK(ss::check(ss::Frame{{0.6f, 0.8f, 0}, {-0.8f, 0.6f, 0}, {0, 0, 1}}) == Status::ok);
-  CHECK(ss::check(ss::Frame{}) == Status::bad_frame);
-  CHECK(ss::check(ss::Frame{{1, 0, 0}, {1, 0, 0}, {0, 0, 1}}) == Status::bad_frame);
-  CHECK(ss::check(ss::Frame{{1.01f, 0, 0}, {0, 1, 0}, {0, 0, 1}}) == Status::bad_frame);
-  CHECK(ss::check(ss::Frame{{1, 0, 0}, {0, 0.99f, 0}, {0, 0, 1}}) == Status::bad_frame);
-  CHECK(ss::check(ss::Frame{{1, 0, 0}, {0, 1, 0}, {0.01f, 0, 1}}) == Status::bad_frame);
-  CHECK(ss::check(ss::Frame{{1, 0, 0}, {0, 1, 0}, {0, -0.01f, 1}}) == Status::bad_frame);
+  CHECK(ss::validate(unit) == Status::ok);
+  CHECK(ss::validate(ss::Frame{{0.6f, 0.8f, 0}, {-0.8f, 0.6f, 0}, {0, 0, 1}}) == Status::ok);
+  CHECK(ss::validate(ss::Frame{}) == Status::bad_frame);
+  CHECK(ss::validate(ss::Frame{{1, 0, 0}, {1, 0, 0}, {0, 0, 1}}) == Status::bad_frame);
+  CHECK(ss::validate(ss::Frame{{1.01f, 0, 0}, {0, 1, 0}, {0, 0, 1}}) == Status::bad_frame);
+  CHECK(ss::validate(ss::Frame{{1, 0, 0}, {0, 0.99f, 0}, {0, 0, 1}}) == Status::bad_frame);
+  CHECK(ss::validate(ss::Frame{{1, 0, 0}, {0, 1, 0}, {0.01f, 0, 1}}) == Status::bad_frame);
+  CHECK(ss::validate(ss::Frame{{1, 0, 0}, {0, 1, 0}, {0, -0.01f, 1}}) == Status::bad_frame);
   for (const float bad : {not_a_number, infinity, -infinity, 3e38f}) {
     for (int k = 0; k < 9; ++k) {
       ss::Frame frame = unit;
       (k < 3 ? frame.x : k < 6 ? frame.y : frame.z)[k % 3] = bad;
-      CHECK(ss::check(frame) == Status::bad_frame);
+      CHECK(ss::validate(frame) == Status::bad_frame);
     }
   }
 }

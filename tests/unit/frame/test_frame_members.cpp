@@ -109,7 +109,7 @@ TEST_CASE("ranking: the place of each rank has those before it that sorting find
 TEST_CASE("ranking: comes to an end where all neighbors are one") {
   std::vector<float> ones(20, 1.0f);
   std::vector<std::uint32_t> same(20, 7);
-  const ss::Neighborhood n{ones.data(), ones.data(), ones.data(), ones.data(), same.data(), 20, 20, 20};
+  const ss::Neighborhood n{ones.data(), ones.data(), ones.data(), ones.data(), same.data(), 20, 20, 20, {}};
   const ss::detail::Place place = ss::detail::place_of_rank(n, 10);
   CHECK(ss::detail::count_before(n, place) == 0);
   CHECK(ss::detail::count_before(n, place + 1) == 20);

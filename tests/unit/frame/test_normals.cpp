@@ -16,19 +16,19 @@ namespace {
 using namespace unit;
 using ss::Status;
 
-Status normal_at(const TestCloud& cloud, const ss::Point& center, ss::Radius radius, ss::Normal& normal,
-                 const float* towards_viewpoint = nullptr) {
+Status normal_at(const TestCloud& cloud, const ss::Point& center, ss::Radius radius, ss::SurfaceNormal& normal,
+                 const ss::Viewpoint& viewpoint = {}) {
   Room room(cloud.size());
   ss::Neighborhood n = room.neighborhood();
   REQUIRE(ss::BruteSearch{cloud.view()}.gather(center, radius, n) == Status::ok);
   normal = {not_a_number, not_a_number, not_a_number};
-  return ss::estimate_normal(n, radius, towards_viewpoint, normal);
+  return ss::estimate_normal(n, radius, normal, viewpoint);
 }
 
-bool is_zero(const ss::Normal& n) { return all_zero({n.x, n.y, n.z}); }
+bool is_zero(const ss::SurfaceNormal& n) { return all_zero({n.x, n.y, n.z}); }
 
 Status refused(const TestCloud& cloud, float radius = 0.1f) {
-  ss::Normal normal{};
+  ss::SurfaceNormal normal{};
   const Status status = normal_at(cloud, cloud.at(0), radius, normal);
   CHECK(is_zero(normal));
   return status;
@@ -37,7 +37,7 @@ Status refused(const TestCloud& cloud, float radius = 0.1f) {
 /// Every 8th point's normal, a unit vector, is within the bound of the oracle's.
 void check_normals(const TestCloud& cloud, float radius) {
   for (std::size_t i = 0; i < cloud.size(); i += 8) {
-    ss::Normal normal{};
+    ss::SurfaceNormal normal{};
     REQUIRE(normal_at(cloud, cloud.at(i), radius, normal) == Status::ok);
     require_normal(normal, oracle_plane(cloud, i, radius));
   }
@@ -90,8 +90,8 @@ TEST_CASE("normals: exactly those of the coordinate planes") {
       p[axis] = 0.7f;
       cloud.add(p[0], p[1], p[2]);
     }
-    const float up[3] = {1.0f, 1.0f, 1.0f};
-    ss::Normal n{};
+    const auto up = ss::Viewpoint::towards({9.0f, 9.0f, 9.0f});
+    ss::SurfaceNormal n{};
     REQUIRE(normal_at(cloud, cloud.at(0), 0.05f, n, up) == Status::ok);
     CHECK(n.x == (axis == 0 ? 1.0f : 0.0f));
     CHECK(n.y == (axis == 1 ? 1.0f : 0.0f));
@@ -108,8 +108,8 @@ TEST_CASE("normals: of a sphere they are its radii") {
   }
   for (std::size_t i = 0; i < cloud.size(); i += 100) {
     const ss::Point p = cloud.at(i);
-    const float outside[3] = {p.x, p.y, p.z};
-    ss::Normal n{};
+    const auto outside = ss::Viewpoint::away_from({0.0f, 0.0f, 0.0f});
+    ss::SurfaceNormal n{};
     REQUIRE(normal_at(cloud, p, 0.2f, n, outside) == Status::ok);
     CHECK(p.x * n.x + p.y * n.y + p.z * n.z > 0.999f);  // neighbors are few: their centroid is a little off
     require_normal(n, oracle_plane(cloud, i, 0.2f));
@@ -137,8 +137,8 @@ TEST_CASE("normals: a radius smaller than that of the neighborhood, in any order
   Room room(cloud.size());
   for (std::size_t i = 0; i < cloud.size(); i += 100) {
     const ss::Point p = cloud.at(i);
-    const float towards[3] = {-p.x, -p.y, -p.z};
-    ss::Normal expected{};
+    const auto towards = ss::Viewpoint::towards({0.0f, 0.0f, 0.0f});
+    ss::SurfaceNormal expected{};
     REQUIRE(normal_at(cloud, p, 0.03f, expected, towards) == Status::ok);
     ss::Neighborhood n = room.neighborhood();
     REQUIRE(ss::BruteSearch{cloud.view()}.gather(p, 0.04f, n) == Status::ok);
@@ -147,18 +147,19 @@ TEST_CASE("normals: a radius smaller than that of the neighborhood, in any order
       for (float* values : {n.dx, n.dy, n.dz, n.d2}) std::swap(values[k], values[other]);
       std::swap(n.index[k], n.index[other]);
     }
-    ss::Normal shuffled{};
-    REQUIRE(ss::estimate_normal(n, 0.03f, towards, shuffled) == Status::ok);
+    ss::SurfaceNormal shuffled{};
+    REQUIRE(ss::estimate_normal(n, 0.03f, shuffled, towards) == Status::ok);
     CHECK(std::memcmp(&shuffled, &expected, sizeof expected) == 0);
   }
 }
 
 TEST_CASE("normals: turned to the viewpoint, at whatever distance it is; without one only the sign differs") {
   const TestCloud cloud = tilted_square(Eigen::Vector3f(0.0f, 0.6f, 0.8f), 0.001f, 300);
-  for (const float distance : {1e-20f, 1.0f, 1e20f}) {
-    const float above[3] = {0.0f, 0.0f, distance};
-    const float below[3] = {0.0f, 0.0f, -distance};
-    ss::Normal up{}, down{}, any{};
+  for (const float distance : {0.01f, 1.0f, 1e20f}) {
+    const ss::Point p = cloud.at(0);
+    const auto above = ss::Viewpoint::towards({p.x, p.y, p.z + distance});
+    const auto below = ss::Viewpoint::away_from({p.x, p.y, p.z + distance});
+    ss::SurfaceNormal up{}, down{}, any{};
     REQUIRE(normal_at(cloud, cloud.at(0), 0.05f, up, above) == Status::ok);
     REQUIRE(normal_at(cloud, cloud.at(0), 0.05f, down, below) == Status::ok);
     REQUIRE(normal_at(cloud, cloud.at(0), 0.05f, any) == Status::ok);
@@ -180,9 +181,9 @@ TEST_CASE("normals: fewer than three neighbors have none, three and their copies
   cloud.add(0.0f, 5.0f, 1.0f);
   CHECK(refused(cloud) == Status::too_few_neighbors);
   cloud.add(0.01f, 0.01f, 1.0f);
-  const float up[3] = {0.0f, 0.0f, 1.0f};
+  const auto up = ss::Viewpoint::towards({0.0f, 0.0f, 9.0f});
   for (int copies = 0; copies < 10; ++copies) {
-    ss::Normal n{};
+    ss::SurfaceNormal n{};
     REQUIRE(normal_at(cloud, cloud.at(0), 0.1f, n, up) == Status::ok);
     CHECK(n.x == doctest::Approx(0.0));
     CHECK(n.y == doctest::Approx(0.0));
@@ -217,21 +218,21 @@ TEST_CASE("normals: bad radii, viewpoints and neighborhoods are refused") {
   Room room(cloud.size());
   ss::Neighborhood n = room.neighborhood();
   REQUIRE(ss::BruteSearch{cloud.view()}.gather(cloud.at(0), 0.1f, n) == Status::ok);
-  const auto status = [&](float radius, const float* towards) {
-    ss::Normal normal{1.0f, 1.0f, 1.0f};
-    const Status result = ss::estimate_normal(n, radius, towards, normal);
+  const auto status = [&](float radius, const ss::Viewpoint& viewpoint) {
+    ss::SurfaceNormal normal{1.0f, 1.0f, 1.0f};
+    const Status result = ss::estimate_normal(n, radius, normal, viewpoint);
     CHECK(is_zero(normal));
     return result;
   };
   for (const float radius : {0.0f, -1.0f, not_a_number, infinity, 1e30f, 1e-30f}) {
-    CHECK(status(radius, nullptr) == Status::bad_radius);
+    CHECK(status(radius, {}) == Status::bad_radius);
   }
-  const float nowhere[3] = {0.0f, not_a_number, 0.0f};
-  const float infinitely_far[3] = {0.0f, 0.0f, infinity};
+  const auto nowhere = ss::Viewpoint::towards({0.0f, not_a_number, 0.0f});
+  const auto infinitely_far = ss::Viewpoint::away_from({0.0f, 0.0f, infinity});
   CHECK(status(0.1f, nowhere) == Status::bad_viewpoint);
   CHECK(status(0.1f, infinitely_far) == Status::bad_viewpoint);
   n.size = 0;
-  CHECK(status(0.1f, nullptr) == Status::too_few_neighbors);
+  CHECK(status(0.1f, {}) == Status::too_few_neighbors);
   n.size = ss::max_neighbors + 1;  // refused before anything is read
-  CHECK(status(0.1f, nullptr) == Status::too_many_neighbors);
+  CHECK(status(0.1f, {}) == Status::too_many_neighbors);
 }

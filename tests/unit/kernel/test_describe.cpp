@@ -24,15 +24,7 @@ std::vector<float> by_steps(const TestCloud& cloud, const ss::KeyPoint& key, con
   const float widest = std::max(support.radius.value, support.frame_radius.value);
   REQUIRE(ss::BruteSearch{cloud.view()}.gather(key.position, widest, n) == Status::ok);
   ss::Frame frame{};
-  const float* towards = nullptr;
-  float view[3] = {};
-  if (support.viewpoint != nullptr) {
-    view[0] = support.viewpoint->x - key.position.x;
-    view[1] = support.viewpoint->y - key.position.y;
-    view[2] = support.viewpoint->z - key.position.z;
-    towards = view;
-  }
-  REQUIRE(ss::estimate_frame(n, support.frame_radius, frame, towards) == Status::ok);
+  REQUIRE(ss::estimate_frame(n, support.frame_radius, frame, support.viewpoint) == Status::ok);
   const ss::RgbColors<ss::PublishedLab> colors{cloud.view(), ss::to_lab<ss::PublishedLab>(key.color)};
   std::vector<float> out = garbage<D>();
   REQUIRE(ss::describe<D>(n, colors, frame, support.radius, out.data()) == Status::ok);
@@ -53,7 +45,8 @@ TEST_CASE("describe: describe_at() is search, frame and kernel, whichever radius
   const TestCloud cloud = curved_surface(1, 1500);
   const ss::Point eye{0.0f, 0.0f, 0.5f};  // between the origin and the cloud
   for (const float frame_radius : {0.03f, 0.05f, 0.08f}) {
-    for (const ss::Point* viewpoint : {static_cast<const ss::Point*>(nullptr), &eye}) {
+    for (const ss::Viewpoint& viewpoint :
+         {ss::Viewpoint{}, ss::Viewpoint::towards(eye), ss::Viewpoint::away_from(eye)}) {
       ss::Support support = 0.05f;
       support.frame_radius = frame_radius;
       support.viewpoint = viewpoint;
@@ -75,9 +68,9 @@ TEST_CASE("describe: neighbors beyond the descriptor's radius change nothing but
     std::vector<float> narrow(96), wide(96);
     ss::Neighborhood n = room.neighborhood();
     REQUIRE(ss::BruteSearch{cloud.view()}.gather(cloud.at(i), 0.04f, n) == Status::ok);
-    REQUIRE(ss::describe<ss::Ssh96>(n, ss::NoColors{}, upright, 0.04f, narrow.data()) == Status::ok);
+    REQUIRE(ss::describe<ss::Ssh96>(n, ss::sources(), upright, 0.04f, narrow.data()) == Status::ok);
     REQUIRE(ss::BruteSearch{cloud.view()}.gather(cloud.at(i), 0.1f, n) == Status::ok);
-    REQUIRE(ss::describe<ss::Ssh96>(n, ss::NoColors{}, upright, 0.04f, wide.data()) == Status::ok);
+    REQUIRE(ss::describe<ss::Ssh96>(n, ss::sources(), upright, 0.04f, wide.data()) == Status::ok);
     CHECK(l2_distance(narrow, wide) < 1e-5);
   }
 }
@@ -155,7 +148,7 @@ TEST_CASE("describe: points on axes, diagonals and the rim get the cells that th
     ss::Neighborhood n = room.neighborhood();
     REQUIRE(ss::BruteSearch{cloud.view()}.gather({0.0f, 0.0f, 0.0f}, 1.0f, n) == Status::ok);
     std::vector<float> out(32);
-    REQUIRE(ss::describe<ss::Ssh<Grid, ss::HardVoting>>(n, ss::NoColors{}, upright, 1.0f, out.data()) == Status::ok);
+    REQUIRE(ss::describe<ss::Ssh<Grid, ss::HardVoting>>(n, ss::sources(), upright, 1.0f, out.data()) == Status::ok);
     const auto hit = std::max_element(out.begin(), out.end()) - out.begin();
     CHECK(hit == ss::Part<Grid, ss::Occupancy>::index(c.r, c.e, c.a));
   }

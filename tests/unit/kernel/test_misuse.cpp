@@ -94,18 +94,18 @@ TEST_CASE("misuse: a viewpoint that is not finite is refused; one at the key poi
   ss::Support support = radius;
   REQUIRE(ss::describe_at<D>(cloud.view(), search, 9, support, *workspace, by_vote.data()) == Status::ok);
   const ss::Point nowhere{0.0f, infinity, 0.0f};
-  support.viewpoint = &nowhere;
+  support.viewpoint = ss::Viewpoint::towards(nowhere);
   CHECK(ss::describe_at<D>(cloud.view(), search, 9, support, *workspace, out.data()) == Status::bad_viewpoint);
   CHECK(all_zero(out));
   TestCloud far;  // so far from the viewpoint that the difference is not finite
   for (int i = 0; i < 10; ++i) far.add(-2e38f, 0.01f * static_cast<float>(i), 0.0f);
   const ss::Point opposite{2e38f, 0.0f, 0.0f};
-  support.viewpoint = &opposite;
+  support.viewpoint = ss::Viewpoint::towards(opposite);
   CHECK(ss::describe_at<D>(far.view(), ss::BruteSearch{far.view()}, 0, support, *workspace, out.data()) ==
         Status::bad_viewpoint);
   CHECK(all_zero(out));
   const ss::Point here = cloud.at(9);
-  support.viewpoint = &here;
+  support.viewpoint = ss::Viewpoint::away_from(here);
   CHECK(ss::describe_at<D>(cloud.view(), search, 9, support, *workspace, out.data()) == Status::ok);
   CHECK(same_bits(out, by_vote));
 }

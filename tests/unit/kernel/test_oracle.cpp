@@ -82,8 +82,9 @@ void compare_one(const TestCloud& cloud, std::size_t key, float radius, float fr
       oracle::describe(described, cloud.rgb, {color.r, color.g, color.b}, expected_frame, radius, config);
   std::vector<float> ours = garbage<D>();
   REQUIRE(expected.values.size() == ours.size());
-  const auto colors = ss::detail::colors_of<D>(cloud.view(), color);
-  REQUIRE(ss::describe<D>(n, colors, to_frame(expected_frame), radius, ours.data()) == ss::Status::ok);
+  const ss::KeyPoint here({center[0], center[1], center[2]}, color);
+  const auto sources = ss::detail::sources_at(typename D::Sources{}, cloud.view(), here);
+  REQUIRE(ss::describe<D>(n, sources, to_frame(expected_frame), radius, ours.data()) == ss::Status::ok);
   double l2 = 0.0;
   double largest = 0.0;
   for (std::size_t i = 0; i < ours.size(); ++i) {

@@ -31,9 +31,9 @@ struct Tally {
   double worst_value = 0.0;  // of those where no vote hangs on a rounding
 };
 
-std::vector<float> flat(const std::vector<ss::Normal>& normals) {
+std::vector<float> flat(const std::vector<ss::SurfaceNormal>& normals) {
   std::vector<float> values;
-  for (const ss::Normal& n : normals) values.insert(values.end(), {n.x, n.y, n.z});
+  for (const ss::SurfaceNormal& n : normals) values.insert(values.end(), {n.x, n.y, n.z});
   return values;
 }
 
@@ -97,9 +97,8 @@ void compare_one(const TestCloud& cloud, std::size_t key, float radius, const or
       oracle::shot_frame(oracle::neighbors(cloud.xyz, {p.x, p.y, p.z}, radius * radius), static_cast<double>(radius));
   REQUIRE(given.exists);
   std::vector<float> ours = garbage<D>();
-  const auto colors = ss::detail::colors_of<D>(cloud.view(), cloud.color_at(key));
-  REQUIRE(ss::describe<D>(n, colors, ss::CloudNormals{cloud.view()}, to_frame(given), radius, ours.data()) ==
-          Status::ok);
+  const auto sources = ss::detail::sources_at(typename D::Sources{}, cloud.view(), ss::keypoint(cloud.view(), key));
+  REQUIRE(ss::describe<D>(n, sources, to_frame(given), radius, ours.data()) == Status::ok);
   count(ours, expected_of(cloud, key, given, radius, config), tally);
   CHECK(same_bits(described_in<D>(cloud, key, to_frame(given), radius), ours));
 

@@ -71,7 +71,7 @@ TestCloud rigidly_moved(const TestCloud& cloud, Random& random) {
     const Eigen::Vector3f r = (rotation * Eigen::Vector3f(p.x, p.y, p.z).cast<double>() + shift).cast<float>();
     return ss::Point{r[0], r[1], r[2]};
   });
-  for (ss::Normal& n : result.normals) {
+  for (ss::SurfaceNormal& n : result.normals) {
     const Eigen::Vector3f r = (rotation * Eigen::Vector3f(n.x, n.y, n.z).cast<double>()).cast<float>();
     n = {r[0], r[1], r[2]};
   }
@@ -205,10 +205,10 @@ TEST_CASE("shot properties: points without a normal have no vote, but count as n
   TestCloud rest;  // without them
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    ss::Normal& n = cloud.normals[i];
+    ss::SurfaceNormal& n = cloud.normals[i];
     const std::size_t kind = i % 9;
     if (kind < 3) (kind == 0 ? n.x : kind == 1 ? n.y : n.z) = missing[i / 9 % 3];  // one of three is enough
-    if (kind < 3 || !ss::math::is_finite(n.x)) continue;
+    if (kind < 3 || !ss::extend::math::is_finite(n.x)) continue;
     rest.add(cloud.at(i), cloud.color_at(i));
     rest.normals.push_back(n);
     kept.push_back(i);
@@ -232,7 +232,7 @@ TEST_CASE("shot properties: points without a normal have no vote, but count as n
 TEST_CASE("shot properties: turning all normals round mirrors every cell's histogram") {
   const TestCloud cloud = random_blob(11);
   TestCloud flipped = cloud;
-  for (ss::Normal& n : flipped.normals) n = {-n.x, -n.y, -n.z};
+  for (ss::SurfaceNormal& n : flipped.normals) n = {-n.x, -n.y, -n.z};
   for (std::size_t key = 0; key < 40; ++key) {
     std::vector<float> mirrored = describe<ss::Shot352>(flipped, key);
     for (std::size_t cell = 0; cell < 32; ++cell) {

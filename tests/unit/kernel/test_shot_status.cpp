@@ -23,7 +23,7 @@ TestCloud dense(std::uint32_t seed) { return with_random_normals(blob(seed, 1500
 
 Status checked(Status status, const std::vector<float>& out) {
   CHECK(all_zero(out) == (status != Status::ok));
-  for (const float value : out) REQUIRE(ss::math::is_finite(value));
+  for (const float value : out) REQUIRE(ss::extend::math::is_finite(value));
   return status;
 }
 
@@ -45,14 +45,14 @@ Status describe_in(const ss::CloudView& view, const ss::Frame& frame, ss::Radius
 }
 
 /// describe() itself, of all that lies within `gathered` of the first point.
-template <class D, class Colors, class Normals>
-Status describe_kernel(const TestCloud& cloud, const Colors& colors, const Normals& normals, const ss::Frame& frame,
-                       ss::Radius r = radius, float gathered = radius) {
+template <class D, class Sources>
+Status describe_kernel(const TestCloud& cloud, const Sources& sources, const ss::Frame& frame, ss::Radius r = radius,
+                       float gathered = radius) {
   Room room(cloud.size());
   ss::Neighborhood n = room.neighborhood();
   REQUIRE(ss::BruteSearch{cloud.view()}.gather(cloud.at(0), gathered, n) == Status::ok);
   std::vector<float> out = garbage<D>();
-  const Status status = ss::describe<D>(n, colors, normals, frame, r, out.data());
+  const Status status = ss::describe<D>(n, sources, frame, r, out.data());
   return checked(status, out);
 }
 
@@ -103,16 +103,16 @@ TEST_CASE("shot status: sources without memory say what is missing") {
   const TestCloud cloud = dense(2);
   const ss::CloudNormals normals{cloud.view()};
   const ss::CloudNormals no_normals{without_normals(cloud)};
-  CHECK(describe_kernel<Shape>(cloud, ss::NoColors{}, normals, upright) == Status::ok);
-  CHECK(describe_kernel<Shape>(cloud, ss::NoColors{}, no_normals, upright) == Status::missing_normals);
+  CHECK(describe_kernel<Shape>(cloud, normals, upright) == Status::ok);
+  CHECK(describe_kernel<Shape>(cloud, no_normals, upright) == Status::missing_normals);
   const ss::RgbColors<Color::LabRule> colors{cloud.view(), ss::to_lab<Color::LabRule>(cloud.color_at(0))};
   const ss::RgbColors<Color::LabRule> no_colors{without_colors(cloud), {}};
-  CHECK(describe_kernel<Color>(cloud, colors, normals, upright) == Status::ok);
-  CHECK(describe_kernel<Color>(cloud, colors, no_normals, upright) == Status::missing_normals);
-  CHECK(describe_kernel<Color>(cloud, no_colors, normals, upright) == Status::missing_colors);
-  // Descriptors without normals do with NoNormals, or with any others.
-  CHECK(describe_kernel<ss::Ssh32>(cloud, ss::NoColors{}, ss::NoNormals{}, upright) == Status::ok);
-  CHECK(describe_kernel<ss::Ssh32>(cloud, ss::NoColors{}, no_normals, upright) == Status::ok);
+  CHECK(describe_kernel<Color>(cloud, ss::sources(colors, normals), upright) == Status::ok);
+  CHECK(describe_kernel<Color>(cloud, ss::sources(colors, no_normals), upright) == Status::missing_normals);
+  CHECK(describe_kernel<Color>(cloud, ss::sources(normals, no_colors), upright) == Status::missing_colors);
+  // Descriptors without normals do without sources, or with any that they do not read.
+  CHECK(describe_kernel<ss::Ssh32>(cloud, ss::sources(), upright) == Status::ok);
+  CHECK(describe_kernel<ss::Ssh32>(cloud, no_normals, upright) == Status::ok);
 }
 
 TEST_CASE("shot status: half a channel of normals is a bad view") {
@@ -150,9 +150,7 @@ TEST_CASE("shot status: only entries within the descriptor's radius count, whate
     cloud.normals.push_back({0.0f, 0.0f, 1.0f});
   }
   const ss::CloudNormals normals{cloud.view()};
-  const auto describe_within = [&](float r) {
-    return describe_kernel<Shape>(cloud, ss::NoColors{}, normals, upright, r, 1.0f);
-  };
+  const auto describe_within = [&](float r) { return describe_kernel<Shape>(cloud, normals, upright, r, 1.0f); };
   CHECK(describe_within(0.5f) == Status::too_few_neighbors);
   CHECK(describe_within(1.0f) == Status::ok);
   ss::Support support = 0.5f;
@@ -177,7 +175,7 @@ TEST_CASE("shot status: normals that are no unit vectors do no harm") {
   Random random(8);
   const float extremes[] = {0.0f, -0.0f, 1e-45f, 1e-30f, 1.0f, 7.0f, -1e19f, 1e30f, 3.4e38f, -3.4e38f};
   const auto any = [&] { return extremes[random.below(10)]; };
-  for (ss::Normal& n : cloud.normals) n = {any(), any(), any()};
+  for (ss::SurfaceNormal& n : cloud.normals) n = {any(), any(), any()};
   const float half = std::sqrt(0.5f);
   for (const ss::Frame& frame : {upright, ss::Frame{{half, 0, half}, {0, 1, 0}, {-half, 0, half}}}) {
     CHECK(describe_in<Shape>(cloud.view(), frame) == Status::ok);  // and finite, and within the array

@@ -29,7 +29,7 @@ Status describe_into_garbage(const ss::CloudView& view, const Key& key, const ss
   const Status status = ss::describe_at<Descriptor>(view, ss::BruteSearch{view}, key, support, workspace, out.data());
   if (status == Status::ok) {
     CHECK(!all_zero(out));
-    for (const float value : out) REQUIRE(ss::math::is_finite(value));
+    for (const float value : out) REQUIRE(ss::extend::math::is_finite(value));
   } else {
     CHECK(all_zero(out));
   }
@@ -41,7 +41,7 @@ Status describe_in_frame(const TestCloud& cloud, const ss::Frame& frame, ss::Rad
   ss::Neighborhood n = room.neighborhood();
   REQUIRE(ss::BruteSearch{cloud.view()}.gather(cloud.at(0), radius, n) == Status::ok);
   std::vector<float> out = garbage<ShapeOnly>();
-  const Status status = ss::describe<ShapeOnly>(n, ss::NoColors{}, frame, r, out.data());
+  const Status status = ss::describe<ShapeOnly>(n, ss::sources(), frame, r, out.data());
   if (status != Status::ok) CHECK(all_zero(out));
   return status;
 }
@@ -82,7 +82,7 @@ TEST_CASE("status: every value is reached by some call") {
   const ss::KeyPoint nowhere{{0.0f, not_a_number, 0.0f}, {}};
   const ss::Point no_place{0.0f, not_a_number, 0.0f};
   ss::Support blind = radius;
-  blind.viewpoint = &no_place;
+  blind.viewpoint = ss::Viewpoint::towards(no_place);
 
   std::set<Status> reached{
       describe_into_garbage<D>(cloud.view(), std::size_t{0}),
@@ -101,6 +101,7 @@ TEST_CASE("status: every value is reached by some call") {
       grid.build(cloud.view(), radius, {order, no_cells, nullptr, 500, 0}),
       organized.build(cloud.view()),
       describe_into_garbage<D>(cloud.view(), std::size_t{0}, blind),
+      describe_into_garbage<ss::IntensityShape336>(cloud.view(), std::size_t{0}),
   };
   reached.merge(reached_by_recognition(upright));
   for (int value = 0; value < ss::status_count; ++value) {
@@ -114,7 +115,7 @@ TEST_CASE("status: an empty cloud, a cloud of nothing finite, and no memory at a
   TestCloud nothing;
   for (int k = 0; k < 10; ++k) nothing.add(not_a_number, infinity, 0.0f);
   CHECK(describe_into_garbage<D>(nothing.view(), std::size_t{0}) == Status::invalid_keypoint);
-  CHECK(describe_into_garbage<D>(nothing.view(), ss::KeyPoint{}) == Status::too_few_neighbors);
+  CHECK(describe_into_garbage<D>(nothing.view(), ss::KeyPoint({0.0f, 0.0f, 0.0f}, {1, 2, 3})) == Status::too_few_neighbors);
   CHECK(ss::GridSearch(nothing.view(), radius).status() == Status::empty_cloud);
   std::vector<std::uint32_t> keypoints{7};
   CHECK(ss::sample_uniform(nothing.view(), radius, keypoints) == Status::empty_cloud);
@@ -124,7 +125,7 @@ TEST_CASE("status: an empty cloud, a cloud of nothing finite, and no memory at a
 
   ss::CloudView no_points{};
   no_points.size = 5;
-  CHECK(ss::check(no_points) == Status::bad_view);
+  CHECK(ss::validate(no_points) == Status::bad_view);
   CHECK(describe_into_garbage<D>(no_points, std::size_t{0}) == Status::bad_view);
   CHECK(ss::GridSearch(no_points, radius).status() == Status::bad_view);
   CHECK(ss::sample_uniform(no_points, radius, keypoints) == Status::bad_view);
@@ -136,18 +137,18 @@ TEST_CASE("status: half a channel is a bad view") {
   const TestCloud cloud = blob(2, 20);
   ss::CloudView view = cloud.view();
   view.points.y = nullptr;
-  CHECK(ss::check(view) == Status::bad_view);
+  CHECK(ss::validate(view) == Status::bad_view);
   view = cloud.view();
   view.colors.b = nullptr;
   CHECK(describe_into_garbage<D>(view, std::size_t{0}) == Status::bad_view);
   view = cloud.view();
   view.normals = {view.points.x, view.points.y, nullptr, 12};
-  CHECK(ss::check(view) == Status::bad_view);
+  CHECK(ss::validate(view) == Status::bad_view);
 }
 
 TEST_CASE("status: null pointers given to the views' makers are refused by whoever reads the view") {
   const TestCloud cloud = blob(3, 20);
-  CHECK(ss::check(ss::view_xyz(nullptr, 5)) == Status::bad_view);
+  CHECK(ss::validate(ss::view_xyz(nullptr, 5)) == Status::bad_view);
   CHECK(describe_into_garbage<D>(ss::view_xyz_rgb(nullptr, cloud.rgb.data(), 5), std::size_t{0}) == Status::bad_view);
   const ss::CloudView colorless = ss::view_xyz_rgb(cloud.xyz.data(), nullptr, cloud.size());
   CHECK(describe_into_garbage<D>(colorless, std::size_t{0}) == Status::missing_colors);

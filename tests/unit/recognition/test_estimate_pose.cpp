@@ -30,7 +30,7 @@ TEST_CASE("pose: found among 80 % wrong pairs, with the right ones as inliers") 
     std::vector<ss::PointPair> pairs = moved(random, expected, 60, noise);
     const std::vector<std::uint32_t> right = first_numbers(60);
     for (int wrong = 0; wrong < 240; ++wrong) {
-      pairs.push_back({point_in_box(random), ss::apply(expected, point_in_box(random))});
+      pairs.push_back({point_in_box(random), ss::transform_point(expected, point_in_box(random))});
     }
     ss::Pose pose = garbage_pose();
     std::vector<std::uint32_t> inliers{7};
@@ -41,7 +41,7 @@ TEST_CASE("pose: found among 80 % wrong pairs, with the right ones as inliers") 
     CHECK(std::equal(right.begin(), right.end(), inliers.begin()));
     CHECK(inliers.size() < right.size() + 5);  // some wrong pairs are right by chance
     for (std::uint32_t i = 0; i < pairs.size(); ++i) {
-      const ss::Point p = ss::apply(pose, pairs[i].source);
+      const ss::Point p = ss::transform_point(pose, pairs[i].source);
       const ss::Point& q = pairs[i].target;
       const bool near = std::hypot(p.x - q.x, p.y - q.y, p.z - q.z) < 0.01f;
       CHECK(near == std::binary_search(inliers.begin(), inliers.end(), i));

@@ -84,16 +84,15 @@ bool same(const std::vector<ss::Match>& a, const std::vector<ss::Match>& b) {
                     [](const ss::Match& x, const ss::Match& y) { return x.row == y.row && x.distance == y.distance; });
 }
 
-bool same(const std::vector<ss::Correspondence>& a, const std::vector<ss::Correspondence>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const ss::Correspondence& x, const ss::Correspondence& y) {
-                      return x.source == y.source && x.target == y.target && x.distance == y.distance;
-                    });
+bool same(const std::vector<ss::MatchedPair>& a, const std::vector<ss::MatchedPair>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ss::MatchedPair& x, const ss::MatchedPair& y) {
+    return x.source == y.source && x.target == y.target && x.distance == y.distance;
+  });
 }
 
 /// The definition: pairs that are nearest in both directions.
-std::vector<ss::Correspondence> mutual(const Rows& source, const Rows& target) {
-  std::vector<ss::Correspondence> pairs;
+std::vector<ss::MatchedPair> mutual(const Rows& source, const Rows& target) {
+  std::vector<ss::MatchedPair> pairs;
   for (std::size_t s = 0; s < source.count(); ++s) {
     const std::vector<ss::Match> there = all_by_distance(source, s, target);
     if (there.empty() || all_by_distance(target, there[0].row, source)[0].row != s) continue;
@@ -103,8 +102,8 @@ std::vector<ss::Correspondence> mutual(const Rows& source, const Rows& target) {
 }
 
 template <class Threads = unsigned>
-std::vector<ss::Correspondence> reciprocal(const Rows& source, const Rows& target, Threads&& threads = 1u) {
-  std::vector<ss::Correspondence> out(3);
+std::vector<ss::MatchedPair> reciprocal(const Rows& source, const Rows& target, Threads&& threads = 1u) {
+  std::vector<ss::MatchedPair> out(3);
   REQUIRE(ss::reciprocal_correspondences(source.view(), target.view(), out, threads) == Status::ok);
   return out;
 }
@@ -156,7 +155,7 @@ TEST_CASE("match: of rows that are as near the first ones win, however many ther
   const std::vector<ss::Match> out = nearest(queries, database, 4);
   CHECK(is_as_defined(out, queries, database, 4));
   for (std::uint32_t i = 0; i < 4; ++i) CHECK(out[4 + i].row == 2 * i + 1);
-  const std::vector<ss::Correspondence> pairs = reciprocal(database, database);
+  const std::vector<ss::MatchedPair> pairs = reciprocal(database, database);
   REQUIRE(pairs.size() == 2);  // the first of each kind with itself
   CHECK((pairs[0].source == 0 && pairs[0].target == 0 && pairs[1].source == 1 && pairs[1].target == 1));
 }
@@ -218,7 +217,7 @@ TEST_CASE("match: rows that do not fit each other, and options out of range, are
                                     {good.values, 8, 3, nullptr},
                                     {good.values, ss::no_row, 6, nullptr}};
   std::vector<ss::Match> matches(3);
-  std::vector<ss::Correspondence> pairs(3);
+  std::vector<ss::MatchedPair> pairs(3);
   for (const ss::DescriptorRows& other : bad) {
     CHECK(ss::nearest(other, good, 1, matches) == Status::bad_rows);
     CHECK(ss::nearest(good, other, 1, matches) == Status::bad_rows);
@@ -245,7 +244,7 @@ TEST_CASE("match: the number of threads changes no bit") {
     source.values.insert(source.values.end(), source.values.begin(), source.values.begin() + 31 * 4);
   }
   const std::vector<ss::Match> matches = nearest(source, target, 3);
-  const std::vector<ss::Correspondence> pairs = reciprocal(source, target);
+  const std::vector<ss::MatchedPair> pairs = reciprocal(source, target);
   CHECK(pairs.size() > 100);
   CHECK(pairs.size() < 600);
   CHECK(pairs[0].source == 0);  // not one of its copies

@@ -17,7 +17,7 @@ using ss::Status;
 double sum_of_squares(const ss::Pose& pose, const std::vector<ss::PointPair>& pairs) {
   double sum = 0.0;
   for (const ss::PointPair& pair : pairs) {
-    const ss::Point p = ss::apply(pose, pair.source);
+    const ss::Point p = ss::transform_point(pose, pair.source);
     sum += std::pow(p.x - pair.target.x, 2) + std::pow(p.y - pair.target.y, 2) + std::pow(p.z - pair.target.z, 2);
   }
   return sum;
@@ -33,7 +33,7 @@ TEST_CASE("pose: a turn by a right angle about z, written down by hand") {
   ss::Pose pose = garbage_pose();
   REQUIRE(ss::fit_pose(pairs, pose) == Status::ok);
   CHECK(largest_difference(pose, expected) < 2e-6f);
-  const ss::Point p = ss::apply(expected, {2.0f, 3.0f, 4.0f});
+  const ss::Point p = ss::transform_point(expected, {2.0f, 3.0f, 4.0f});
   CHECK((p.x == 2.0f && p.y == 2.0f && p.z == 6.0f));
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("pose: of points in a plane, and far from the origin") {
   std::vector<ss::PointPair> far = plane;
   for (ss::PointPair& pair : plane) {
     pair.source.z = 1.0f;
-    pair.target = ss::apply(expected, pair.source);
+    pair.target = ss::transform_point(expected, pair.source);
   }
   ss::Pose pose = garbage_pose();
   REQUIRE(ss::fit_pose(plane, pose) == Status::ok);
@@ -127,7 +127,7 @@ TEST_CASE("pose: no motion where points are on a line, coincide, or move by thei
   for (int i = 0; i < 30; ++i) {
     const float t = random.between(-1.0f, 1.0f);
     const ss::Point p{0.3f + 0.1f * t, -0.2f + 0.3f * t, 1.0f - 0.2f * t};
-    line.push_back({p, ss::apply(pose, p)});
+    line.push_back({p, ss::transform_point(pose, p)});
   }
   check_refused(line, Status::no_pose);
   check_refused({line[0], line[1], line[2]}, Status::no_pose);

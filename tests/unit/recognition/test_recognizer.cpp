@@ -22,15 +22,15 @@ const View blue_mug = synthetic_object(3, 60);
 
 ss::Recognizer trained(const ss::RecognizerOptions& options = {}) {
   ss::Recognizer recognizer(options);
-  REQUIRE(recognizer.train(cup.rows(), synthetic_layout, origin, "cup", "a") == Status::ok);
-  REQUIRE(recognizer.train(red_mug.rows(), synthetic_layout, origin, "mug", "red") == Status::ok);
-  REQUIRE(recognizer.train(blue_mug.rows(), synthetic_layout, origin, "mug", "blue") == Status::ok);
+  REQUIRE(ss::train(recognizer, cup.rows(), synthetic_layout, origin, "cup", "a") == Status::ok);
+  REQUIRE(ss::train(recognizer, red_mug.rows(), synthetic_layout, origin, "mug", "red") == Status::ok);
+  REQUIRE(ss::train(recognizer, blue_mug.rows(), synthetic_layout, origin, "mug", "blue") == Status::ok);
   return recognizer;
 }
 
 std::vector<ss::Hypothesis> recognized(const ss::Recognizer& recognizer, const View& view) {
   std::vector<ss::Hypothesis> found(3);
-  REQUIRE(recognizer.recognize(view.rows(), synthetic_layout, found) == Status::ok);
+  REQUIRE(ss::recognize(recognizer, view.rows(), synthetic_layout, found) == Status::ok);
   return found;
 }
 
@@ -58,8 +58,8 @@ TEST_CASE("recognizer: names, and what it is for") {
 
 TEST_CASE("recognizer: an instance is known by both of its names") {
   ss::Recognizer recognizer = trained();
-  REQUIRE(recognizer.train(cup.rows(), synthetic_layout, origin, "cup", "red") == Status::ok);
-  REQUIRE(recognizer.train(cup.rows(), synthetic_layout, origin, "cup", "a") == Status::ok);
+  REQUIRE(ss::train(recognizer, cup.rows(), synthetic_layout, origin, "cup", "red") == Status::ok);
+  REQUIRE(ss::train(recognizer, cup.rows(), synthetic_layout, origin, "cup", "a") == Status::ok);
   CHECK(recognizer.class_count() == 2);
   CHECK(recognizer.instance_count() == 4);
   CHECK(recognizer.codeword_count() == 220);
@@ -84,7 +84,7 @@ TEST_CASE("recognizer: the center is where it was put in training, not the origi
   const Motion now = random_motion(random);
   const ss::Point center{0.3f, -0.2f, 0.1f};
   ss::Recognizer recognizer;
-  REQUIRE(recognizer.train(moved(cup, in_training).rows(), synthetic_layout, in_training(center), "cup", "a") ==
+  REQUIRE(ss::train(recognizer, moved(cup, in_training).rows(), synthetic_layout, in_training(center), "cup", "a") ==
           Status::ok);
   const std::vector<ss::Hypothesis> found = recognized(recognizer, moved(cup, now));
   REQUIRE(found.size() == 1);
@@ -141,13 +141,13 @@ TEST_CASE("recognizer: maxima within a bandwidth are one, those beyond it are tw
 
 TEST_CASE("recognizer: more neighbors activate more codewords") {
   ss::Recognizer recognizer = trained({0.03f, 2, 8});
-  REQUIRE(recognizer.train(cup.rows(), synthetic_layout, origin, "cup", "a") == Status::ok);
+  REQUIRE(ss::train(recognizer, cup.rows(), synthetic_layout, origin, "cup", "a") == Status::ok);
   CHECK(recognized(recognizer, cup)[0].score == doctest::Approx(80.0).epsilon(1e-5));
   recognizer.set_options({0.03f, 1024, 8});  // more than there are
   View corner = cup;
   for (std::size_t i = 2; i < corner.size(); ++i) corner.status[i] = Status::too_few_neighbors;
   ss::ActivationShares shares;
-  REQUIRE(recognizer.activation_shares(corner.rows().descriptors, synthetic_layout, shares) == Status::ok);
+  REQUIRE(ss::activation_shares(recognizer, corner.rows().descriptors, synthetic_layout, shares) == Status::ok);
   CHECK(same_bits(shares.instances, {160.0f / 360.0f, 80.0f / 360.0f, 120.0f / 360.0f}));
   CHECK_FALSE(recognized(recognizer, corner).empty());
 }
@@ -159,15 +159,15 @@ TEST_CASE("recognizer: shares of activated codewords") {
   scene.append(red_mug);
   for (std::size_t i = 100; i < 140; ++i) scene.status[i] = i < 120 ? Status::ok : Status::bad_keypoint;
   ss::ActivationShares shares;
-  REQUIRE(recognizer.activation_shares(scene.rows().descriptors, synthetic_layout, shares) == Status::ok);
+  REQUIRE(ss::activation_shares(recognizer, scene.rows().descriptors, synthetic_layout, shares) == Status::ok);
   CHECK(same_bits(shares.classes, {40.0f / 120.0f, 80.0f / 120.0f}));
   CHECK(same_bits(shares.instances, {40.0f / 120.0f, 20.0f / 120.0f, 60.0f / 120.0f}));
 
   scene.status.assign(scene.size(), Status::bad_keypoint);
-  REQUIRE(recognizer.activation_shares(scene.rows().descriptors, synthetic_layout, shares) == Status::ok);
+  REQUIRE(ss::activation_shares(recognizer, scene.rows().descriptors, synthetic_layout, shares) == Status::ok);
   CHECK(same_bits(shares.classes, {0.0f, 0.0f}));
   CHECK(same_bits(shares.instances, {0.0f, 0.0f, 0.0f}));
-  CHECK(recognizer.activation_shares(scene.rows().descriptors, "other", shares) == Status::other_descriptor);
+  CHECK(ss::activation_shares(recognizer, scene.rows().descriptors, "other", shares) == Status::other_descriptor);
   CHECK((shares.classes.empty() && shares.instances.empty()));
 }
 
@@ -178,15 +178,15 @@ TEST_CASE("recognizer: a view without descriptors is no error: nothing is found 
   view.values.assign(view.values.size(), not_a_number);  // of rows that do not count
   CHECK(recognized(recognizer, view).empty());
   CHECK(recognized(recognizer, View{}).empty());
-  CHECK(recognizer.train(view.rows(), synthetic_layout, origin, "new", "new") == Status::ok);
+  CHECK(ss::train(recognizer, view.rows(), synthetic_layout, origin, "new", "new") == Status::ok);
   CHECK(recognizer.class_count() == 2);
 
   ss::Recognizer untrained;
-  CHECK(untrained.train(view.rows(), "never mind", origin, "new", "new") == Status::ok);
+  CHECK(ss::train(untrained, view.rows(), "never mind", origin, "new", "new") == Status::ok);
   std::vector<ss::Hypothesis> found(1);
-  CHECK(untrained.recognize(cup.rows(), synthetic_layout, found) == Status::not_trained);
+  CHECK(ss::recognize(untrained, cup.rows(), synthetic_layout, found) == Status::not_trained);
   CHECK(found.empty());
-  CHECK(untrained.train(cup.rows(), synthetic_layout, origin, "cup", "a") == Status::ok);
+  CHECK(ss::train(untrained, cup.rows(), synthetic_layout, origin, "cup", "a") == Status::ok);
   CHECK(untrained.layout() == synthetic_layout);
 }
 
@@ -199,11 +199,11 @@ TEST_CASE("recognizer: the result does not depend on the number of threads") {
   CHECK(found.size() == 20);
   std::vector<ss::Hypothesis> again;
   for (const unsigned threads : {0u, 2u, 3u, 100u}) {
-    REQUIRE(recognizer.recognize(scene.rows(), synthetic_layout, again, threads) == Status::ok);
+    REQUIRE(ss::recognize(recognizer, scene.rows(), synthetic_layout, again, threads) == Status::ok);
     CHECK(same_bits(again, found));
   }
   ThreadPool pool(3);
-  REQUIRE(recognizer.recognize(scene.rows(), synthetic_layout, again, pool) == Status::ok);
+  REQUIRE(ss::recognize(recognizer, scene.rows(), synthetic_layout, again, pool) == Status::ok);
   CHECK(same_bits(again, found));
 }
 
@@ -217,8 +217,8 @@ TEST_CASE("recognizer: the same bits on every machine") {
   for (const ss::Hypothesis& hypothesis : found) {
     add(hypothesis.object_class);
     add(hypothesis.instance);
-    for (std::size_t k = 0; k < 3; ++k) add(ss::math::bits_of(ss::coordinate(hypothesis.center, k)));
-    add(ss::math::bits_of(hypothesis.score));
+    for (std::size_t k = 0; k < 3; ++k) add(ss::extend::math::bits_of(ss::extend::coordinate(hypothesis.center, k)));
+    add(ss::extend::math::bits_of(hypothesis.score));
   }
   CHECK(found.size() == 9);
   CHECK(hash == 0x2FF74FAE63AEE498u);
@@ -234,16 +234,16 @@ TEST_CASE("recognizer: with what extract() gives") {
   ss::Recognizer recognizer;
   std::vector<ss::Hypothesis> found;
   ss::ActivationShares shares;
-  REQUIRE(recognizer.train(features, keypoints, {0.0f, 0.0f, 0.9f}, "surface", "curved") == Status::ok);
+  REQUIRE(ss::train(recognizer, features, {0.0f, 0.0f, 0.9f}, "surface", "curved") == Status::ok);
   CHECK(recognizer.layout() == ss::layout_of<ss::Scsh336>());
-  REQUIRE(recognizer.recognize(features, keypoints, found) == Status::ok);
+  REQUIRE(ss::recognize(recognizer, features, found) == Status::ok);
   REQUIRE(found.size() == 1);
   CHECK(distance(found[0].center, {0.0f, 0.0f, 0.9f}) < 1e-5f);
-  REQUIRE(recognizer.activation_shares(features, shares) == Status::ok);
+  REQUIRE(ss::activation_shares(recognizer, features, shares) == Status::ok);
   CHECK(same_bits(shares.classes, {1.0f}));
 
-  keypoints.pop_back();
-  CHECK(recognizer.recognize(features, keypoints, found) == Status::bad_rows);
+  features.keypoints.pop_back();
+  CHECK(ss::recognize(recognizer, features, found) == Status::bad_rows);
   ss::Features<ss::Scsh<ss::SphericalGrid<3, 4, 8>, ss::SphericalGrid<2, 2, 4>, 15, ss::HardVoting>> others;
-  CHECK(recognizer.recognize(others, {}, found) == Status::other_descriptor);  // as many values
+  CHECK(ss::recognize(recognizer, others, found) == Status::other_descriptor);  // as many values
 }

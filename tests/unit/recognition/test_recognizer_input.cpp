@@ -20,13 +20,13 @@ const View object = synthetic_object(5, 20);
 /// Both refuse the rows, and nothing comes of it.
 void check_refused(const ss::FeatureRows& rows, Status expected) {
   ss::Recognizer recognizer;
-  REQUIRE(recognizer.train(object.rows(), synthetic_layout, origin, "class", "instance") == Status::ok);
-  CHECK(recognizer.train(rows, synthetic_layout, origin, "new", "new") == expected);
+  REQUIRE(ss::train(recognizer, object.rows(), synthetic_layout, origin, "class", "instance") == Status::ok);
+  CHECK(ss::train(recognizer, rows, synthetic_layout, origin, "new", "new") == expected);
   CHECK(recognizer.class_count() == 1);
   CHECK(recognizer.instance_count() == 1);
   CHECK(recognizer.codeword_count() == 20);
   std::vector<ss::Hypothesis> found(1);
-  CHECK(recognizer.recognize(rows, synthetic_layout, found) == expected);
+  CHECK(ss::recognize(recognizer, rows, synthetic_layout, found) == expected);
   CHECK(found.empty());
 }
 
@@ -37,7 +37,7 @@ void check_refused_after(const Change& change, Status expected) {
   check_refused(view.rows(), expected);
   view.status[7] = Status::too_few_neighbors;  // nobody looks at that row now
   ss::Recognizer recognizer;
-  CHECK(recognizer.train(view.rows(), synthetic_layout, origin, "class", "instance") == Status::ok);
+  CHECK(ss::train(recognizer, view.rows(), synthetic_layout, origin, "class", "instance") == Status::ok);
 }
 
 double density_at(const std::vector<Vote>& votes, const double (&at)[3], double bandwidth, double (&mean)[3]) {
@@ -46,12 +46,12 @@ double density_at(const std::vector<Vote>& votes, const double (&at)[3], double 
   for (const Vote& vote : votes) {
     double d2 = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const double d = static_cast<double>(ss::coordinate(vote.center, k)) - at[k];
+      const double d = static_cast<double>(ss::extend::coordinate(vote.center, k)) - at[k];
       d2 += d * d;
     }
     const double w = std::exp(-d2 / (2.0 * bandwidth * bandwidth));
     density += w;
-    for (std::size_t k = 0; k < 3; ++k) sums[k] += w * static_cast<double>(ss::coordinate(vote.center, k));
+    for (std::size_t k = 0; k < 3; ++k) sums[k] += w * static_cast<double>(ss::extend::coordinate(vote.center, k));
   }
   for (std::size_t k = 0; k < 3; ++k) mean[k] = sums[k] / density;
   return density;
@@ -76,13 +76,13 @@ TEST_CASE("recognizer: rows that cannot be used") {
 
 TEST_CASE("recognizer: descriptors of another layout, centers that are none, options out of range") {
   ss::Recognizer recognizer;
-  CHECK(recognizer.train(object.rows(), synthetic_layout, {0.0f, infinity, 0.0f}, "c", "i") ==
+  CHECK(ss::train(recognizer, object.rows(), synthetic_layout, {0.0f, infinity, 0.0f}, "c", "i") ==
         Status::invalid_keypoint);
   CHECK(recognizer.codeword_count() == 0);
-  REQUIRE(recognizer.train(object.rows(), synthetic_layout, origin, "c", "i") == Status::ok);
-  CHECK(recognizer.train(object.rows(), "synthetic, other", origin, "c", "i") == Status::other_descriptor);
+  REQUIRE(ss::train(recognizer, object.rows(), synthetic_layout, origin, "c", "i") == Status::ok);
+  CHECK(ss::train(recognizer, object.rows(), "synthetic, other", origin, "c", "i") == Status::other_descriptor);
   std::vector<ss::Hypothesis> found(1);
-  CHECK(recognizer.recognize(object.rows(), "synthetic, other", found) == Status::other_descriptor);
+  CHECK(ss::recognize(recognizer, object.rows(), "synthetic, other", found) == Status::other_descriptor);
   CHECK(found.empty());
 
   const std::vector<ss::RecognizerOptions> wrong{{0.0f, 1, 8},     {-0.03f, 1, 8},   {not_a_number, 1, 8},
@@ -91,7 +91,7 @@ TEST_CASE("recognizer: descriptors of another layout, centers that are none, opt
   for (const ss::RecognizerOptions& options : wrong) {
     recognizer.set_options(options);
     found.resize(1);
-    CHECK(recognizer.recognize(object.rows(), synthetic_layout, found) == Status::bad_option);
+    CHECK(ss::recognize(recognizer, object.rows(), synthetic_layout, found) == Status::bad_option);
     CHECK(found.empty());
   }
 }
@@ -103,13 +103,13 @@ TEST_CASE("recognizer: places at the ends of float's range give no infinity") {
     return view;
   };
   ss::Recognizer recognizer;
-  CHECK(recognizer.train(far_away(3e38f).rows(), synthetic_layout, {-3e38f, 0.0f, 0.0f}, "c", "i") ==
+  CHECK(ss::train(recognizer, far_away(3e38f).rows(), synthetic_layout, {-3e38f, 0.0f, 0.0f}, "c", "i") ==
         Status::invalid_keypoint);
   CHECK(recognizer.codeword_count() == 0);
-  REQUIRE(recognizer.train(object.rows(), synthetic_layout, {1e38f, 0.0f, 0.0f}, "c", "i") == Status::ok);
+  REQUIRE(ss::train(recognizer, object.rows(), synthetic_layout, {1e38f, 0.0f, 0.0f}, "c", "i") == Status::ok);
   std::vector<ss::Hypothesis> found;
   for (const float x : {0.0f, 1e20f, 3.4e38f}) {
-    REQUIRE(recognizer.recognize(far_away(x).rows(), synthetic_layout, found) == Status::ok);
+    REQUIRE(ss::recognize(recognizer, far_away(x).rows(), synthetic_layout, found) == Status::ok);
     for (const ss::Hypothesis& hypothesis : found) {
       CHECK(ss::is_finite(hypothesis.center));
       CHECK(hypothesis.score >= 1.0f);

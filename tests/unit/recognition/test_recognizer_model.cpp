@@ -21,9 +21,9 @@ const View mug = synthetic_object(22, 4);
 
 ss::Recognizer trained() {
   ss::Recognizer recognizer({0.025f, 2, 5});
-  REQUIRE(recognizer.train(cup.rows(), synthetic_layout, {0.0f, 0.0f, 0.5f}, "cup", "a") == Status::ok);
-  REQUIRE(recognizer.train(mug.rows(), synthetic_layout, {0.0f, 0.0f, 0.0f}, "mug", "red") == Status::ok);
-  REQUIRE(recognizer.train(cup.rows(), synthetic_layout, {0.1f, 0.0f, 0.0f}, "mug", "") == Status::ok);
+  REQUIRE(ss::train(recognizer, cup.rows(), synthetic_layout, {0.0f, 0.0f, 0.5f}, "cup", "a") == Status::ok);
+  REQUIRE(ss::train(recognizer, mug.rows(), synthetic_layout, {0.0f, 0.0f, 0.0f}, "mug", "red") == Status::ok);
+  REQUIRE(ss::train(recognizer, cup.rows(), synthetic_layout, {0.1f, 0.0f, 0.0f}, "mug", "") == Status::ok);
   return recognizer;
 }
 
@@ -94,11 +94,11 @@ TEST_CASE("model: a recognizer comes back as it was, bit for bit") {
   View scene = moved(mug, no_motion, 0.3f);
   scene.append(moved(cup, no_motion, 0.3f));
   std::vector<ss::Hypothesis> expected, found;
-  REQUIRE(before.recognize(scene.rows(), synthetic_layout, expected) == Status::ok);
-  REQUIRE(after.recognize(scene.rows(), synthetic_layout, found) == Status::ok);
+  REQUIRE(ss::recognize(before, scene.rows(), synthetic_layout, expected) == Status::ok);
+  REQUIRE(ss::recognize(after, scene.rows(), synthetic_layout, found) == Status::ok);
   CHECK_FALSE(expected.empty());
   CHECK(same_bits(found, expected));
-  REQUIRE(after.train(cup.rows(), synthetic_layout, {}, "cup", "b") == Status::ok);
+  REQUIRE(ss::train(after, cup.rows(), synthetic_layout, {}, "cup", "b") == Status::ok);
   CHECK(after.instance_count() == 4);
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("model: the format is what recognizer_model.hpp says") {
   CHECK(number_at(at_instances, 8) == 3);
   CHECK(number_at(at_codewords, 8) == 10);
   CHECK(number_at(at_codewords + 8 + 3 * 16, 4) == 1);  // the instance of the fourth codeword
-  CHECK(number_at(at_values, 4) == ss::math::bits_of(cup.values[0]));
+  CHECK(number_at(at_values, 4) == ss::extend::math::bits_of(cup.values[0]));
   const Bytes letter{'a'};
   CHECK(ss::detail::checksum(letter.data(), 1) == 0xAF63DC4C8601EC8Cu);  // a published example of FNV-1a
 }
@@ -202,7 +202,7 @@ TEST_CASE("model: any other change of a byte leaves a model, or is refused") {
     ++loaded;
     REQUIRE(saved(recognizer) == other);
     std::vector<ss::Hypothesis> found;
-    REQUIRE(recognizer.recognize(cup.rows(), synthetic_layout, found) == Status::ok);
+    REQUIRE(ss::recognize(recognizer, cup.rows(), synthetic_layout, found) == Status::ok);
     for (const ss::Hypothesis& hypothesis : found) REQUIRE(ss::is_finite(hypothesis.center));
   }
   CHECK(loaded > 1000);
@@ -229,7 +229,7 @@ TEST_CASE("model: files") {
 
   const View many = synthetic_object(24, 500);  // more than one read
   ss::Recognizer large = trained();
-  REQUIRE(large.train(many.rows(), synthetic_layout, {}, "cup", "b") == Status::ok);
+  REQUIRE(ss::train(large, many.rows(), synthetic_layout, {}, "cup", "b") == Status::ok);
   REQUIRE(ss::save(large, path) == Status::ok);
   REQUIRE(ss::load(path, synthetic_layout, recognizer) == Status::ok);
   CHECK(saved(recognizer) == saved(large));

@@ -21,7 +21,7 @@ namespace {
 
 using namespace unit;
 namespace detail = ss::detail;
-namespace simd = ss::simd;
+namespace simd = ss::extend::simd;
 
 /// All that a descriptor must be to have bits.
 template <int Size>

@@ -54,7 +54,7 @@ struct State {
   ss::CloudView view;  // with normals once they are there
   Grid grid, normal_grid;
   Tree tree;
-  std::vector<ss::Normal> normals;
+  std::vector<ss::SurfaceNormal> normals;
   std::vector<ss::Lab> lab;
   golden::Neighbors neighbors;
 };
@@ -62,7 +62,7 @@ struct State {
 /// By the grid that serves their radius best.
 void estimate_normals(State& state, const ss::CloudView& view) {
   state.normal_grid.build(view, normal_radius);
-  require(ss::estimate_normals(view, *state.normal_grid, normal_radius, state.normals));
+  require(ss::estimate_normals(view, *state.normal_grid, normal_radius, ss::Viewpoint::towards({}), state.normals));
 }
 
 template <class LabRule>
@@ -79,24 +79,24 @@ void find_all(State& state, const Search& search) {
 }
 
 template <class D>
-auto colors_for(const State& state, std::uint32_t key) {
+auto sources_for(const State& state, std::uint32_t key) {
+  const ss::CloudNormals normals{state.view};  // looked at only if D needs them
   if constexpr (D::needs_colors) {
-    return ss::LabColors{state.lab.data(), state.lab[key]};
+    return ss::sources(ss::LabColors{state.lab.data(), state.lab[key]}, normals);
   } else {
-    return ss::NoColors{};
+    return ss::sources(normals);
   }
 }
 
 /// Search, frame and kernel of each key point; normals and the cloud's colors, by D's rule, are there already.
 template <class D, class Search>
 void describe_all(State& state, const Search& search, ss::Features<D>& features) {
-  const ss::CloudNormals normals{state.view};  // looked at only if D needs them
   float* row = features.values.data();
   for (const std::uint32_t key : state.task.keypoints) {
     const ss::Neighborhood& n = state.neighbors.gather(search, ss::point(state.view, key), state.task.radius);
     ss::Frame frame;
     if (ss::estimate_frame(n, state.task.radius, frame) == ss::Status::ok) {
-      static_cast<void>(ss::describe<D>(n, colors_for<D>(state, key), normals, frame, state.task.radius, row));
+      static_cast<void>(ss::describe<D>(n, sources_for<D>(state, key), frame, state.task.radius, row));
     }
     row += D::size;
   }
@@ -106,10 +106,11 @@ void describe_all(State& state, const Search& search, ss::Features<D>& features)
 template <class D, class Index>
 void add_contender(Suite& suite, const std::shared_ptr<State>& state, Index State::*index,
                    const std::vector<std::size_t>& before, const char* descriptor) {
+  const auto extractor = std::make_shared<ss::Extractor<D>>();
   const auto features = std::make_shared<ss::Features<D>>();
   const auto extract = [=](unsigned threads) {
     const State& s = *state;
-    require(ss::extract(s.view, *((*state).*index), s.task.keypoints, s.task.radius, *features, threads));
+    require(extractor->extract(s.view, *((*state).*index), s.task.keypoints, s.task.radius, *features, threads));
   };
   const std::string name = std::string(descriptor) + ", " + Index::name;
   Contender contender{"shortshot", descriptor, suite.name, Index::name};
@@ -126,8 +127,9 @@ void add_contender(Suite& suite, const std::shared_ptr<State>& state, Index Stat
     suite.add(
         "2 threads", [=] { extract(2); }, Clock::wall);
   }
-  suite.release = [release_others = suite.release, features] {
+  suite.release = [release_others = suite.release, extractor, features] {
     release_others();
+    *extractor = {};
     *features = {};
   };
 }
@@ -149,7 +151,7 @@ Suite PEERS_SUITE(const Task& task) {
     state->normal_grid.release();
     state->tree.release();
     state->view.normals = {};
-    state->normals = std::vector<ss::Normal>();  // {} would keep its memory
+    state->normals = std::vector<ss::SurfaceNormal>();  // {} would keep its memory
     state->lab = std::vector<ss::Lab>();
     state->neighbors = {};
   };

@@ -1,0 +1,44 @@
+// shortshot/cloud/keypoint.hpp: a place to describe.
+#pragma once
+
+#include <cstddef>
+
+#include "../config.hpp"
+#include "cloud.hpp"
+#include "read.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// A place to describe: a point of the cloud, or any other position (a voxel's centroid), with the color and the
+/// intensity that its neighbors' are compared with. Where a descriptor needs one that a key point does not have, the
+/// key point has the status missing_colors or missing_intensities. Trivially copyable.
+struct KeyPoint {
+  Point position;
+  float intensity;
+  Rgb color;
+  bool has_color;
+  bool has_intensity;
+
+  KeyPoint() = default;
+  [[gnu::always_inline]] constexpr KeyPoint(const Point& p) noexcept  // NOLINT: a point can be described
+      : position(p), intensity(0.0f), color{}, has_color(false), has_intensity(false) {}
+  [[gnu::always_inline]] constexpr KeyPoint(const Point& p, const Rgb& rgb) noexcept
+      : position(p), intensity(0.0f), color(rgb), has_color(true), has_intensity(false) {}
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// The key point at point `index` of a cloud, which must be below cloud.size, with what the cloud has there.
+[[nodiscard]] inline KeyPoint keypoint(const CloudView& cloud, std::size_t index) noexcept {
+  KeyPoint key(point(cloud, index));
+  key.has_color = has_colors(cloud);
+  key.has_intensity = has_intensities(cloud);
+  if (key.has_color) key.color = color(cloud, index);
+  if (key.has_intensity) key.intensity = intensity(cloud, index);
+  return key;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
