@@ -40,6 +40,8 @@ build gcc_sse2_O3 g++ -O3
 build gcc_scalar g++ -O2 -U__SSE2__
 build gcc_scalar_Os g++ -Os -U__SSE2__  # the code of microcontrollers
 build clang_sse2 clang++ -O2
+sanitizers=-fsanitize=address,undefined,float-cast-overflow
+build clang_sse2_sanitized clang++ -O1 -g1 $sanitizers -fno-sanitize-recover=all  # the test suites' are for AVX2
 if grep -qw avx2 /proc/cpuinfo && grep -qw fma /proc/cpuinfo; then
   build gcc_avx2 g++ -O2 -ffp-contract=fast -mavx2 -mfma
   build clang_avx2 clang++ -O2 -ffp-contract=fast -mavx2 -mfma

@@ -14,16 +14,17 @@ stub() {
   printf '#!/bin/sh\n%s\n' "$2" >"$stubs/$1"
   chmod +x "$stubs/$1"
 }
-for tool in cmake apt-get; do stub $tool "echo $tool \"\$@\" >>'$log'"; done
-for tool in sh dirname grep sed nproc env; do ln -s "$(command -v $tool)" "$stubs/$tool"; done
+for tool in cmake ctest apt-get; do stub $tool "echo $tool \"\$@\" >>'$log'"; done
+for tool in sh dirname grep sed nproc env find sort date; do ln -s "$(command -v $tool)" "$stubs/$tool"; done
 user() { stub id "echo $1"; }
 lacks() { stub dpkg-query "case \$4 in $1) exit 1 ;; *) echo installed ;; esac"; }
 
-# attempt CODE: runs the demo on that machine; its program is not there, so that 127 means: went on to it.
+# attempt ARGUMENTS: runs a command on that machine. The programs that it builds are not there, so that 127 means: went on
+# to one.
 attempt() {
   code=0
   : >"$log"
-  PATH=$stubs "$run" demo >"$directory/out" 2>&1 || code=$?
+  PATH=$stubs "$run" "$@" >"$directory/out" 2>&1 || code=$?
 }
 
 fail() {
@@ -37,7 +38,7 @@ refuse() { ! grep -q -- "$1" "$log" || fail "done: $1"; }
 echo "a machine that has everything: nothing is installed"
 lacks nothing
 user 1000
-attempt
+attempt demo
 refuse apt-get
 expect "cmake --preset default"
 expect "cmake --build --preset default .*--target demo"
@@ -45,7 +46,7 @@ expect "cmake --build --preset default .*--target demo"
 echo "root, one package missing: it is installed, and only it"
 lacks cmake
 user 0
-attempt
+attempt demo
 expect "apt-get update"
 expect "apt-get install -y --no-install-recommends cmake$"
 expect "cmake --build"
@@ -53,18 +54,50 @@ expect "cmake --build"
 echo "a user with sudo"
 user 1000
 stub sudo "echo sudo >>'$log'; \"\$@\""
-attempt
+attempt demo
 expect sudo
 expect "apt-get install"
 
 echo "a user without sudo: told what is missing and how to get it"
 rm "$stubs/sudo"
-attempt
+attempt demo
 [ "$code" = 1 ] || fail "exit code $code, not 1"
 refuse apt-get
 refuse "cmake --"
 grep -q "missing: cmake" "$directory/out" || fail "the package is not named"
 grep -q "apt-get install .*cmake" "$directory/out" || fail "the command is not named"
+
+echo "one file of tests: what it needs is installed, and nothing but it is built"
+mkdir -p "$directory/tests/unit/descriptor" "$directory/tests/unit/store" "$directory/tests/bench/paper"
+for test in unit/descriptor/test_voting bench/paper/test_twice unit/store/test_twice; do
+  : >"$directory/tests/$test.cpp"
+done
+user 0
+lacks "libembree-dev | doctest-dev"
+attempt unit test_voting
+[ "$code" = 127 ] || fail "exit code $code, not 127"
+expect "apt-get install -y --no-install-recommends doctest-dev$"
+expect "cmake --preset default -DSHORTSHOT_REQUIRE_ALL_TESTS=OFF$"
+expect "cmake --build .*--target unit_tests.test_voting$"
+
+echo "a name that no file of tests has, or several have: the files are named"
+for name in otin twice ''; do
+  attempt unit $name
+  [ "$code" = 2 ] || fail "exit code $code, not 2"
+  refuse "cmake --"
+  grep -q "twice" "$directory/out" || fail "no file is named"
+done
+
+echo "steps are counted, and timed in the end, also of a failure"
+lacks nothing
+attempt test -L unit
+grep -q "^step 1 of 2: GCC: build$" "$directory/out" || fail "step 1 is not announced"
+tail -n 1 "$directory/out" | grep -qE "^steps: GCC: build [0-9]+ s, GCC: tests [0-9]+ s$" || fail "steps are not timed"
+[ "$code" = 0 ] || fail "exit code $code, not 0"
+stub ctest "exit 8"
+attempt test
+tail -n 1 "$directory/out" | grep -qE "^steps: GCC: build [0-9]+ s, GCC: tests [0-9]+ s$" || fail "steps are not timed"
+[ "$code" = 8 ] || fail "exit code $code, not 8"
 
 echo "help lists the commands, an unknown command is an error"
 "$run" help | grep -q "run demo" || fail "no demo in the help"

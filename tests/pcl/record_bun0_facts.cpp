@@ -13,7 +13,7 @@
 #include <iterator>
 #include <vector>
 
-#include "tools/bun0_facts.hpp"
+#include "bench/bun0_facts.hpp"
 #include "tools/golden/case.hpp"
 
 namespace {

@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/real_data.hpp"
 #include "shortshot/shortshot.hpp"
 #include "tools/io/read_cloud.hpp"
-#include "tools/real_data.hpp"
 #include "tools/scene/tabletop.hpp"
 
 namespace {

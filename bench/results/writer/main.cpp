@@ -38,7 +38,8 @@ int update(const std::string& root, bool check) {
 int main(int argc, char** argv) {
   CLI::App app(
       "Puts bench/results/*.json and bench/speed/instructions/expected.json into the generated blocks of README.md and "
-      "bench/RESULTS.md.");
+      "of "
+      "bench/RESULTS.md, bench/GOALS.md and bench/firmware/README.md.");
   app.name("results_writer");
   std::string root;
   bool check = false;

@@ -56,12 +56,14 @@ std::vector<Document> generate(const std::string& root) {
 
   Document report = read_document(root + "/bench/RESULTS.md");
   generate_block(report, "machine", machine_lines(machine));
-  generate_block(report, "goals", goals_table(scaling::read_rows(results + "goals.json")));
   generate_block(report, "peers", peers_table(peers));
   generate_block(report, "micro", micro_table(results + "micro.json", scaling::read_json(results + "micro.json")));
   generate_block(report, "instructions", instructions_table(instructions, scaling::read_json(instructions)));
   generate_block(report, "scaling", scaling_tables(scaling::read_curves(results + "scaling.json"), "results"));
-  return {readme, report, page};
+
+  Document goals = read_document(root + "/bench/GOALS.md");
+  generate_block(goals, "goals", goals_table(scaling::read_rows(results + "goals.json")));
+  return {readme, report, page, goals};
 }
 
 }  // namespace shortshot_bench::results

@@ -12,9 +12,9 @@ struct Document {
   std::string generated;  // what it should hold
 };
 
-/// README.md, bench/RESULTS.md and bench/firmware/README.md of the project in `root`, with their generated blocks made
-/// of bench/results/*.json and bench/speed/instructions/expected.json. Throws std::runtime_error with the file's name
-/// if one is missing or malformed.
+/// README.md, bench/RESULTS.md, bench/firmware/README.md and bench/GOALS.md of the project in `root`, with their
+/// generated blocks made of bench/results/*.json and bench/speed/instructions/expected.json. Throws std::runtime_error
+/// with the file's name if one is missing or malformed.
 std::vector<Document> generate(const std::string& root);
 
 /// Where the machine is written down.

@@ -83,13 +83,15 @@ TEST_CASE("the README's headline: both builds next to each other, and where the 
   CHECK(has(readme.generated, "Imaginary 1, GCC 12"));
 }
 
-TEST_CASE("the report shows every file") {
+TEST_CASE("the report and the goals show every file") {
   const Project project;
-  const std::string report = generate(project.root()).at(1).generated;
+  const std::vector<Document> documents = generate(project.root());
+  const std::string& report = documents.at(1).generated;
+  const std::string& goals = documents.at(3).generated;
   CHECK(has(report, "Imaginary 1, 2 cores; Debian; GCC 12, `-O2`."));
-  CHECK(has(report, "| faster | O2 | >= 25 | 26.0 | desk.pcd | yes |\n"));
-  CHECK(has(report, "| exact | avx2 | <= 1e-06 | 3.20e-06 | desk.pcd | **no** |\n"));
-  CHECK(has(report, "| instructions | avx2 | report | not measured | | |\n"));
+  CHECK(has(goals, "| faster | O2 | >= 25 | 26.0 | desk.pcd | yes |\n"));
+  CHECK(has(goals, "| exact | avx2 | <= 1e-06 | 3.20e-06 | desk.pcd | **no** |\n"));
+  CHECK(has(goals, "| instructions | avx2 | report | not measured | | |\n"));
   CHECK(
       has(report, "| SSH-32 | PCL SHOT | grid | 2.25 / 1.12 | 360 | 160x / 320x | 240x / 480x | 5.2 MB, 31.4 KB |\n"));
   CHECK(has(report, "| stage | CPU time | | ns/neighbor | bytes |\n"));
@@ -132,7 +134,7 @@ TEST_CASE("firmware: the README's rows, and the page's tables") {
 
 TEST_CASE("a missing or malformed file is named, and what is wrong with it") {
   for (const char* file :
-       {"README.md", "bench/RESULTS.md", "bench/results/machine.json", "bench/results/peers.json",
+       {"README.md", "bench/RESULTS.md", "bench/GOALS.md", "bench/results/machine.json", "bench/results/peers.json",
         "bench/results/goals.json", "bench/results/micro.json", "bench/speed/instructions/expected.json",
         "bench/results/scaling.json", "bench/results/firmware.json", "bench/firmware/README.md"}) {
     CAPTURE(file);

@@ -1,0 +1,83 @@
+# Included by CMakeLists.txt.
+
+# ---- Generated and written files -------------------------------------------------------------------------------------
+
+build_test(single_header_is_fresh "${CMAKE_COMMAND}" "-DSOURCE_DIR=${PROJECT_SOURCE_DIR}" "-DOUTPUT_DIR=${there}"
+  -P "${here}/check_single_header.cmake")
+build_test(changelog_has_version "${CMAKE_COMMAND}" "-DCHANGELOG=${PROJECT_SOURCE_DIR}/CHANGELOG.md"
+  -DVERSION=${PROJECT_VERSION} -P "${here}/check_changelog.cmake")
+set(include_order "${here}/check_include_order.sh")
+build_test(include_order "${include_order}" "${PROJECT_SOURCE_DIR}/include")
+build_test(include_order.can_fail "${include_order}" --control "${PROJECT_SOURCE_DIR}/include" "${there}/include_order")
+build_test(readme "${CMAKE_COMMAND}" "-DDOCUMENT=${PROJECT_SOURCE_DIR}/README.md"
+  -DEXAMPLES=quick_start,parents,firmware,recognition "-DOUTPUT_DIR=${there}/readme" -P "${here}/extract_examples.cmake")
+build_test(run_script "${here}/test_run.sh" "${PROJECT_SOURCE_DIR}/run" "${there}/run_script")
+
+if(TARGET results_writer AND EXISTS "${PROJECT_SOURCE_DIR}/bench/results/peers.json")
+  build_test(results_are_fresh results_writer "${PROJECT_SOURCE_DIR}" --check)
+endif()
+
+set(single_header_flag "-I${PROJECT_SOURCE_DIR}/single_include")
+build_test(readme.quick_start "${CMAKE_CXX_COMPILER}" -std=c++17 -Wall -Wextra -Wconversion -Wshadow -Werror "${single_header_flag}"
+  "${there}/readme/quick_start.cpp" -o "${there}/readme/quick_start")
+build_test(readme.quick_start.runs "${there}/readme/quick_start")
+build_test(readme.firmware "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" -O2 -fno-pie
+  ${no_runtime} -c "${there}/readme/firmware.cpp" -o "${there}/readme/firmware.o")
+build_test(readme.firmware.symbols "${check_symbols}" "${there}/readme/firmware.o")
+build_test(readme.firmware.links "${CMAKE_CXX_COMPILER}" -std=c++17 "${here}/firmware_main.cpp" "${there}/readme/firmware.o"
+  -no-pie -o "${there}/readme/firmware")
+build_test(readme.firmware.runs "${there}/readme/firmware")
+build_test(readme.parents "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" -fsyntax-only
+  "${there}/readme/parents.cpp")
+build_test(readme.recognition "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}"
+  -isystem "${eigen_dir}" -fsyntax-only "${there}/readme/recognition.cpp")
+depends(readme.parents readme)
+depends(readme.recognition readme)
+depends(readme.quick_start readme)
+depends(readme.quick_start.runs readme.quick_start)
+depends(readme.firmware readme)
+depends(readme.firmware.symbols readme.firmware)
+depends(readme.firmware.links readme.firmware)
+depends(readme.firmware.runs readme.firmware.links)
+
+# ---- The page for firmware engineers, and manifests ------------------------------------------------------------------
+
+set(page "${there}/firmware_page")
+build_test(firmware_page "${CMAKE_COMMAND}" "-DDOCUMENT=${PROJECT_SOURCE_DIR}/bench/firmware/README.md"
+  -DEXAMPLES=firmware,cycles,esp_idf,zephyr "-DOUTPUT_DIR=${page}" -P "${here}/extract_examples.cmake")
+build_test(firmware_page.host "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" -O2
+  "${page}/firmware.cpp" "${here}/firmware_page_main.cpp" -o "${page}/firmware")
+build_test(firmware_page.host.runs "${page}/firmware")
+depends(firmware_page.host firmware_page)
+depends(firmware_page.host.runs firmware_page.host)
+if(arm-none-eabi_compiler)
+  foreach(example IN ITEMS firmware cycles)
+    build_test(firmware_page.${example} "${arm-none-eabi_compiler}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}"
+      -Os ${no_runtime} ${cortex_m7} -c "${page}/${example}.cpp" -o "${page}/${example}.o")
+    build_test(firmware_page.${example}.symbols "${check_symbols}" "${page}/${example}.o")
+    set_tests_properties(build.firmware_page.${example}.symbols PROPERTIES
+      ENVIRONMENT "NM=arm-none-eabi-nm;OBJDUMP=arm-none-eabi-objdump")
+    depends(firmware_page.${example} firmware_page)
+    depends(firmware_page.${example}.symbols firmware_page.${example})
+  endforeach()
+endif()
+
+# build_system(NAME EXAMPLE LIBRARY): the page's lines for a build system, with the library's clone at LIBRARY.
+function(build_system name example library)
+  build_test(build_systems.${name} "${CMAKE_CTEST_COMMAND}" --build-and-test "${here}/build_systems"
+    "${there}/build_systems/${name}" --build-generator "${CMAKE_GENERATOR}" --build-options
+    "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" -DCMAKE_CXX_STANDARD=17 "-DEXAMPLE=${page}/${example}.cmake"
+    "-DMAIN=${page}/firmware.cpp" "-DSHORTSHOT_SOURCE_DIR=${library}")
+  depends(build_systems.${name} firmware_page)
+endfunction()
+foreach(system IN ITEMS esp_idf zephyr)
+  build_system(${system} ${system} "${PROJECT_SOURCE_DIR}")
+  build_system(${system}_no_clone ${system} "${PROJECT_SOURCE_DIR}/include")
+  set_tests_properties(build.build_systems.${system}_no_clone PROPERTIES
+    PASS_REGULAR_EXPRESSION "single_include' is not a directory|error: [^\n]*shortshot.hpp")
+endforeach()
+
+add_executable(library_json library_json.cpp)
+target_link_libraries(library_json PRIVATE test_main shortshot_own nlohmann_json::nlohmann_json)
+target_compile_definitions(library_json PRIVATE SHORTSHOT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+build_test(library_json library_json)
