@@ -7,9 +7,9 @@
 // CSHOT, B-SHOT).
 //
 // The umbrella. On bare metal it is the kernel: no heap, no exceptions, no operating system. Where there is an
-// operating system it adds what allocates: extract() for many key points, sampling, a grid with memory of its own.
-// Include <nanoflann.hpp> BEFORE it and NanoflannSearch is there as well; with <Eigen/Core>, view_eigen(), and on an
-// operating system matching, poses and the recogniser.
+// operating system it adds what allocates: extract() for many key points, sampling, a grid with memory of its own,
+// matching, poses and the recognizer. Include <nanoflann.hpp> BEFORE it and NanoflannSearch is there as well; with
+// <Eigen/Core>, view_eigen().
 
 // shortshot/adapters/point_cloud2.hpp: views of sensor_msgs/PointCloud2-shaped messages, without including ROS.
 
@@ -6083,6 +6083,71 @@ template <class D>
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
+// shortshot/match.hpp: the nearest descriptors of another set, exactly, and pairs that are each other's nearest. Hosted
+// only: allocates, starts threads.
+//
+// |a - b|^2 = |a|^2 + |b|^2 - 2 ab makes of all distances one matrix product, 1.4 (SSE2) to 1.7 (AVX2) times as fast as
+// squared differences blocked in the same way, but cancellation costs it digits where rows are close. So the product
+// only rules out: where, by a bound on its rounding, a row may be nearer than the best so far, the distance is computed
+// again as a sum of squared differences, and that decides. In rows of no particular order that is so for about
+// log(count) rows of each query.
+
+// shortshot/products.hpp: products of the rows of one matrix with those of another, for match.hpp.
+//
+// The order of each sum is fixed: one sum for each pair of rows, over their values in ascending order, each product
+// rounded by itself. Lanes hold sums of different rows, so neither their number nor the place of a tile, nor threads,
+// nor a fused multiply-add change a bit. Blocked for registers and caches it is as fast as Eigen's product (SSE2,
+// AVX2).
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// Twelve sums, the two registers of the panel, one for a value of the other matrix and one for a product: the 16
+/// registers that SSE2 and AVX2 have.
+inline constexpr int tile_rows = 6;
+inline constexpr int panel_registers = 2;
+inline constexpr std::size_t panel_rows = panel_registers * simd::lanes;
+
+/// The products of one row with those of a panel, in their order.
+struct PanelProducts {
+  simd::F32 of[panel_registers];
+};
+
+/// Puts rows side by side: value 0 of all of them, then value 1, and so on.
+inline void pack(const float* const (&rows)[panel_rows], std::size_t size, float* panel) noexcept {
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t k = 0; k < panel_rows; k += simd::lanes) {
+      simd::store(panel, simd::from_lanes([&](std::size_t lane) { return rows[k + lane][i]; }));
+      panel += simd::lanes;
+    }
+  }
+}
+
+inline void multiply(const float* panel, const float* const (&rows)[tile_rows], std::size_t size,
+                     PanelProducts (&products)[tile_rows]) noexcept {
+  simd::F32 sums[tile_rows][panel_registers];
+  const float* row[tile_rows];
+  unroll<tile_rows>([&](auto r) {
+    row[r] = rows[r];
+    unroll<panel_registers>([&](auto k) { sums[r][k] = simd::all(0.0f); });
+  });
+  for (std::size_t i = 0; i < size; ++i) {
+    unroll<tile_rows>([&](auto r) SHORTSHOT_INLINE_LAMBDA {
+      const simd::F32 value = simd::all(row[r][i]);
+      unroll<panel_registers>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+        sums[r][k] = sums[r][k] + value * simd::load(panel + k * simd::lanes);
+      });
+    });
+    panel += panel_rows;
+  }
+  unroll<tile_rows>([&](auto r) { unroll<panel_registers>([&](auto k) { products[r].of[k] = sums[r][k]; }); });
+}
+
+}  // namespace detail
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
 // shortshot/rows.hpp: borrowed rows of descriptors, as matching and recognition take them. Hosted only.
 
 namespace shortshot {
@@ -6136,188 +6201,6 @@ namespace detail {
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
-// shortshot/sample.hpp: uniform key points, one per occupied voxel. Hosted only: allocates.
-
-#include <cmath>
-#include <tuple>
-
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-namespace detail {
-
-/// A valid point of a cloud in its voxel. Voxel numbers stay floats: whole numbers, exact up to 2^24 voxels from the
-/// origin, as the coordinates are.
-struct VoxelMember {
-  float voxel[3];
-  float place[3];  // in the voxel, from its corner, in voxels
-  float d2;        // to the voxel's centre, in voxels
-  std::uint32_t index;
-};
-
-[[nodiscard]] inline bool same_voxel(const VoxelMember& a, const VoxelMember& b) noexcept {
-  return a.voxel[0] == b.voxel[0] && a.voxel[1] == b.voxel[1] && a.voxel[2] == b.voxel[2];
-}
-
-/// All valid points, voxel after voxel, in each the one nearest to its centre first.
-[[nodiscard]] inline Status sort_into_voxels(const CloudView& cloud, float leaf, std::vector<VoxelMember>& members) {
-  const Status usable = check(cloud);
-  if (usable != Status::ok) return usable;
-  if (!math::is_finite(leaf) || !(leaf > 0.0f)) return Status::bad_leaf;
-  members.clear();
-  members.reserve(cloud.size);
-  for_each_valid(cloud, [&](std::size_t i, const Point& p) {
-    VoxelMember member{{}, {}, 0.0f, static_cast<std::uint32_t>(i)};
-    float from_center[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float position = coordinate(p, axis) / leaf;
-      member.voxel[axis] = std::floor(position);
-      member.place[axis] = position - member.voxel[axis];
-      from_center[axis] = member.place[axis] - 0.5f;
-    }
-    member.d2 = (rounded(from_center[0] * from_center[0]) + rounded(from_center[1] * from_center[1])) +
-                rounded(from_center[2] * from_center[2]);
-    members.push_back(member);
-  });
-  if (members.empty()) return Status::empty_cloud;
-  const auto key = [](const VoxelMember& m) { return std::tie(m.voxel[2], m.voxel[1], m.voxel[0], m.d2, m.index); };
-  std::sort(members.begin(), members.end(),
-            [&](const VoxelMember& a, const VoxelMember& b) { return key(a) < key(b); });
-  return Status::ok;
-}
-
-/// The centroid and the mean colour of one voxel's members.
-[[nodiscard]] inline KeyPoint centroid_of(const CloudView& cloud, float leaf, const VoxelMember* first,
-                                          const VoxelMember* end) noexcept {
-  const auto count = static_cast<std::uint32_t>(end - first);
-  float place[3] = {};
-  std::uint64_t rgb[3] = {};
-  for (const VoxelMember* member = first; member != end; ++member) {
-    for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += member->place[axis];
-    if (!has_colors(cloud)) continue;
-    const Rgb c = color(cloud, member->index);
-    rgb[0] += c.r;
-    rgb[1] += c.g;
-    rgb[2] += c.b;
-  }
-  const auto at = [&](std::size_t axis) {
-    return (first->voxel[axis] + place[axis] / static_cast<float>(count)) * leaf;
-  };
-  const auto mean = [&](std::size_t c) { return static_cast<std::uint8_t>((rgb[c] + count / 2) / count); };
-  return {{at(0), at(1), at(2)}, {mean(0), mean(1), mean(2)}};
-}
-
-}  // namespace detail
-
-/// One key point per voxel of `leaf` metres that holds a valid point: the point nearest to the voxel's centre (the one
-/// with the smaller index if two are as near). Voxels lie on a grid through the origin.
-/// `keypoints` receives indices into the cloud in ascending order. Statuses: empty_cloud (also if no point is valid),
-/// bad_view, bad_leaf. O(n log n); allocates 32 bytes a point; the same result on every machine.
-[[nodiscard]] inline Status sample_uniform(const CloudView& cloud, float leaf, std::vector<std::uint32_t>& keypoints) {
-  keypoints.clear();
-  std::vector<detail::VoxelMember> members;
-  const Status status = detail::sort_into_voxels(cloud, leaf, members);
-  if (status != Status::ok) return status;
-  const auto end = std::unique(members.begin(), members.end(), detail::same_voxel);
-  for (auto member = members.begin(); member != end; ++member) keypoints.push_back(member->index);
-  std::sort(keypoints.begin(), keypoints.end());
-  return Status::ok;
-}
-
-/// The same with the centroid and the mean colour (black without colours) of each voxel's points: less noise than any
-/// one of them has, which pays most where the key point's colour is what colour distances refer to. Voxels by z, then
-/// y, then x.
-[[nodiscard]] inline Status sample_centroids(const CloudView& cloud, float leaf, std::vector<KeyPoint>& keypoints) {
-  keypoints.clear();
-  std::vector<detail::VoxelMember> members;
-  const Status status = detail::sort_into_voxels(cloud, leaf, members);
-  if (status != Status::ok) return status;
-  const detail::VoxelMember* const end = members.data() + members.size();
-  for (const detail::VoxelMember* first = members.data(); first != end;) {
-    const detail::VoxelMember* next = first + 1;
-    while (next != end && detail::same_voxel(*first, *next)) ++next;
-    const KeyPoint centroid = detail::centroid_of(cloud, leaf, first, next);
-    // Beyond the reach of voxel numbers a point stands for itself.
-    keypoints.push_back(is_finite(centroid.position) ? centroid : keypoint(cloud, first->index));
-    first = next;
-  }
-  return Status::ok;
-}
-
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
-
-// shortshot/search/grid_hosted.hpp: the fixed-radius grid with memory of its own. Hosted only: build allocates.
-
-namespace shortshot {
-inline namespace SHORTSHOT_ISA {
-
-/// A fixed-radius grid that owns its memory: 16 bytes a valid point and 4 a cell, with as many cells as the cloud's box
-/// holds, but at most four a point (and 4,096). A search (see brute.hpp); the cloud must outlive it. build() again for
-/// the next frame: its memory is reused. Queries are thread-safe.
-class GridSearch {
- public:
-  GridSearch() = default;
-
-  /// Sorts the cloud into cells of `radius`, or of half of it where points are dense. If that fails status() says why,
-  /// and so do extract() and describe_at().
-  GridSearch(const CloudView& cloud, float radius) { static_cast<void>(build(cloud, radius)); }
-
-  /// See GridIndex::build(); may throw std::bad_alloc.
-  [[nodiscard]] Status build(const CloudView& cloud, float radius) {
-    const std::size_t points = check(cloud) == Status::ok ? cloud.size : 0;  // a bad view says anything of its size
-    const std::size_t cells = 4 * points + 4096;
-    if (cell_end_.size() < planning_cells) cell_end_.resize(planning_cells);
-    grid_ = {};  // and so it stays if there is no memory
-    detail::Grid<std::uint32_t> next{};
-    if (next.plan(cloud, radius, {nullptr, cell_end_.data(), nullptr, points, cells}) != Status::ok) {
-      grid_ = next;
-      return next.status();
-    }
-    // Points lie on surfaces, which pass through few cells of their box: 8 points a cell of the box mean hundreds in
-    // those that are not empty, and then smaller cells, fewer of whose points lie outside the sphere, pay.
-    if (8 * next.cells() <= next.size()) next.halve_cells();
-    if (order_.size() < next.size()) {
-      order_.resize(next.size());
-      xyz_.resize(3 * next.size());
-    }
-    if (cell_end_.size() < next.cells()) cell_end_.resize(next.cells());
-    next.sort({order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cell_end_.size()});
-    grid_ = next;
-    return Status::ok;
-  }
-
-  [[nodiscard]] Status status() const noexcept { return grid_.status(); }
-  [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
-
-  template <class Neighbors>
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
-    return grid_.gather({order_.data(), cell_end_.data(), xyz_.data()}, center, radius, out);
-  }
-
- private:
-  static constexpr std::size_t planning_cells = 64;
-
-  detail::Grid<std::uint32_t> grid_{};
-  std::vector<std::uint32_t> order_;
-  std::vector<std::uint32_t> cell_end_;
-  std::vector<float> xyz_;
-};
-
-}  // namespace SHORTSHOT_ISA
-}  // namespace shortshot
-#if defined(EIGEN_WORLD_VERSION)
-
-// shortshot/match.hpp: the nearest descriptors of another set, exactly, and pairs that are each other's nearest. Hosted
-// only: allocates, starts threads. Needs Eigen.
-//
-// |a - b|^2 = |a|^2 + |b|^2 - 2 ab makes of all distances one matrix product, two to six times as fast as sums of
-// squared differences (SSE2, AVX2), but cancellation costs it digits where rows are close. So the product only rules
-// out: where, by a bound on its rounding, a row may be nearer than the best so far, the distance is computed again as a
-// sum of squared differences, and that decides. In rows of no particular order that is so for about log(count) rows of
-// each query.
-
-#include <Eigen/Core>
-
 namespace shortshot {
 
 /// In place of a row's number where there is none.
@@ -6339,11 +6222,11 @@ struct Correspondence {
 inline namespace SHORTSHOT_ISA {
 namespace detail {
 
-/// Rows of queries and of the database in one product: with fewer, more of the time goes into Eigen's packing.
-inline constexpr std::size_t product_rows = 128;
-inline constexpr std::size_t product_columns = 1024;
-
-using Products = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// Queries that a thread takes at a time, and rows of the database that meet them at a time: few enough for a CPU's
+/// second cache, many enough to be worth their way there.
+inline constexpr std::size_t query_block = 128;
+inline constexpr std::size_t row_block = 96;
+static_assert(query_block % panel_rows == 0 && row_block % tile_rows == 0, "whole tiles");
 
 /// More than twice any squared distance; finite, so that nothing here depends on how infinities compare.
 inline constexpr float out_of_reach = std::numeric_limits<float>::max();
@@ -6378,33 +6261,49 @@ inline constexpr float out_of_reach = std::numeric_limits<float>::max();
 /// again. 5 instead of 4 makes up for higher orders, 16 for the few other operations, min() for squares that underflow.
 class ComparedRows {
  public:
-  explicit ComparedRows(const DescriptorRows& rows) : rows_(rows), half_norms_(rows.count, out_of_reach) {
+  explicit ComparedRows(const DescriptorRows& rows)
+      : rows_(rows), origin_(rows.size), half_norms_(whole_panels(rows.count), out_of_reach) {
     const auto size = static_cast<float>(rows.size);
     const float kept = 1.0f - 5.0f * (size + 16.0f) * (1.0f / 16777216.0f);
     const float underflow = size * std::numeric_limits<float>::min();
     for (std::size_t i = 0; i < rows.count; ++i) {
       if (!is_ok(rows, i)) continue;
-      const float norm = block(i, i + 1).squaredNorm();
-      if (math::is_finite(8.0f * norm)) half_norms_[i] = 0.5f * kept * norm - underflow;
+      const float norm = squared_distance(at(i), origin_.data(), rows.size);
+      if (math::is_finite(8.0f * norm)) half_norms_[i] = rounded(0.5f * kept * norm) - underflow;
     }
   }
 
-  [[nodiscard]] std::size_t count() const noexcept { return rows_.count; }
-  [[nodiscard]] float half_norm(std::size_t row) const noexcept { return half_norms_[row]; }
-  [[nodiscard]] bool takes_part(std::size_t row) const noexcept { return half_norms_[row] < out_of_reach; }
-
-  [[nodiscard]] Eigen::Map<const Products> block(std::size_t begin, std::size_t end) const noexcept {
-    return {at(begin), static_cast<Eigen::Index>(end - begin), static_cast<Eigen::Index>(rows_.size)};
+  /// A multiple of the rows of a panel: what is behind the last row takes no part.
+  [[nodiscard]] static std::size_t whole_panels(std::size_t count) noexcept {
+    return (count + panel_rows - 1) / panel_rows * panel_rows;
   }
+  [[nodiscard]] std::size_t count() const noexcept { return rows_.count; }
+  [[nodiscard]] std::size_t size() const noexcept { return rows_.size; }
+  [[nodiscard]] const float* half_norm(std::size_t row) const noexcept { return half_norms_.data() + row; }
+  [[nodiscard]] bool takes_part(std::size_t row) const noexcept { return half_norms_[row] < out_of_reach; }
   [[nodiscard]] float squared_distance_to(const ComparedRows& other, std::size_t row,
                                           std::size_t others_row) const noexcept {
     return squared_distance(at(row), other.at(others_row), rows_.size);
+  }
+
+  /// Zeros for rows that take no part.
+  void pack_panel(std::size_t first, float* panel) const noexcept {
+    const float* rows[panel_rows];
+    for (std::size_t k = 0; k < panel_rows; ++k) rows[k] = takes_part(first + k) ? at(first + k) : origin_.data();
+    pack(rows, rows_.size, panel);
+  }
+  /// With rows from `first` on; the last one's again where there are no more.
+  void multiply_tile(const float* panel, std::size_t first, PanelProducts (&products)[tile_rows]) const noexcept {
+    const float* rows[tile_rows];
+    for (std::size_t k = 0; k < tile_rows; ++k) rows[k] = at(std::min(first + k, rows_.count - 1));
+    multiply(panel, rows, rows_.size, products);
   }
 
  private:
   [[nodiscard]] const float* at(std::size_t row) const noexcept { return rows_.values + row * rows_.size; }
 
   DescriptorRows rows_;
+  std::vector<float> origin_;
   std::vector<float> half_norms_;
 };
 
@@ -6415,28 +6314,51 @@ class ComparedRows {
                                                                                           : Status::bad_rows;
 }
 
-/// Shares blocks of queries among threads. compare(thread, q, first, last, products) is called for each query that
-/// takes part, with its products with rows [first, last) of the database; one thread gets queries, and rows, in
-/// ascending order.
+/// Shares blocks of queries among threads. compare(thread, first, row, products) is called for panels of queries, from
+/// `first` on, with their products with a row of the database that takes part; one thread gets queries in ascending
+/// order for each row, and rows for each query.
 template <class Executor, class Compare>
 void for_products(Executor& executor, std::size_t team, const ComparedRows& queries, const ComparedRows& database,
                   const Compare& compare) {
-  const auto rows = static_cast<Eigen::Index>(std::min(queries.count(), product_rows));
-  const auto columns = static_cast<Eigen::Index>(std::min(database.count(), product_columns));
-  std::vector<Products> memory(team, Products(rows, columns));
+  const std::size_t size = queries.size();
+  const std::size_t block_values = std::min(ComparedRows::whole_panels(queries.count()), query_block) * size;
+  std::vector<float> panels(team * block_values);
   const auto compare_block = [&](std::size_t thread, std::size_t begin, std::size_t end) {
-    Products& products = memory[thread];
-    for (std::size_t first = 0; first < database.count(); first += product_columns) {
-      const std::size_t last = std::min(first + product_columns, database.count());
-      products.topLeftCorner(static_cast<Eigen::Index>(end - begin), static_cast<Eigen::Index>(last - first))
-          .noalias() = queries.block(begin, end) * database.block(first, last).transpose();
-      for (std::size_t q = begin; q < end; ++q) {
-        if (!queries.takes_part(q)) continue;
-        compare(thread, q, first, last, &products(static_cast<Eigen::Index>(q - begin), 0));
+    float* const block = panels.data() + thread * block_values;
+    for (std::size_t q = begin; q < end; q += panel_rows) queries.pack_panel(q, block + (q - begin) * size);
+    for (std::size_t first = 0; first < database.count(); first += row_block) {
+      const std::size_t last = std::min(first + row_block, database.count());
+      for (std::size_t q = begin; q < end; q += panel_rows) {
+        for (std::size_t tile = first; tile < last; tile += tile_rows) {
+          PanelProducts products[tile_rows];
+          database.multiply_tile(block + (q - begin) * size, tile, products);
+          for (std::size_t row = tile; row < std::min(tile + tile_rows, last); ++row) {
+            if (database.takes_part(row)) compare(thread, q, row, products[row - tile]);
+          }
+        }
       }
     }
   };
-  for_blocks(executor, team, queries.count(), product_rows, compare_block);
+  for_blocks(executor, team, queries.count(), query_block, compare_block);
+}
+
+/// Calls consider(query) for those queries of a panel, from `first` on, whose squared distance from a row, of which
+/// there is a half norm, may be below twice the limits(query), which are in a register for each query and those next.
+template <class Limits, class Consider>
+void for_candidates(const ComparedRows& queries, std::size_t first, float half_norm, const PanelProducts& products,
+                    const Limits& limits, const Consider& consider) {
+  for (std::size_t k = 0; k < panel_rows; k += simd::lanes) {
+    const std::size_t query = first + k;
+    const simd::F32 half_norms = simd::load(queries.half_norm(query));
+    const simd::F32 half_distances = (half_norms - products.of[k / simd::lanes]) + simd::all(half_norm);
+    const simd::Mask near = half_distances < limits(query);
+    if (!any(near)) continue;
+    std::int32_t is_near[simd::lanes];
+    simd::store(is_near, keep(near, simd::all_int(1)));
+    for (std::size_t lane = 0; lane < simd::lanes; ++lane) {
+      if (is_near[lane] != 0 && queries.takes_part(query + lane)) consider(query + lane);
+    }
+  }
 }
 
 /// Puts a match that is nearer than the last of k, which are in ascending order, behind those that are as near.
@@ -6474,10 +6396,8 @@ inline void insert(Match* best, std::size_t k, const Match& match) noexcept {
 /// Statuses: bad_rows (null pointers, rows of different or no length, 2^32 - 1 rows or more), bad_option (k, or more
 /// results than memory has room for); `out` is empty then. O(queries.count * database.count * size), at the speed of
 /// Eigen's matrix product; a database in the order of falling distances, or of copies, costs a sum of squared
-/// differences for each pair on top of it. Allocates `out`, 4 bytes for each row of both, and for each thread 128 x
-/// 1024 products (512 KB) and Eigen's copies of the factors (below 5 KB for each value of a row). May throw what
-/// extract() may. In programs that are compiled with -fopenmp, Eigen starts threads of its own unless
-/// Eigen::setNbThreads(1) was called.
+/// differences for each pair on top of it. Allocates `out`, 8 bytes for each query, 4 for each row of the database, and
+/// 512 for each value of a row and each thread. May throw what extract() may.
 template <class Threads = unsigned>
 [[nodiscard]] Status nearest(const DescriptorRows& queries, const DescriptorRows& database, std::size_t k,
                              std::vector<Match>& out, Threads&& threads = 1u) {
@@ -6489,17 +6409,18 @@ template <class Threads = unsigned>
   out.assign(queries.count * k, {no_row, detail::out_of_reach});
   const detail::ComparedRows from(queries);
   const detail::ComparedRows to(database);
-  auto&& executor = detail::executor_of(threads, (queries.count + detail::product_rows - 1) / detail::product_rows);
+  std::vector<float> half_worst(detail::ComparedRows::whole_panels(queries.count), 0.5f * detail::out_of_reach);
+  auto&& executor = detail::executor_of(threads, (queries.count + detail::query_block - 1) / detail::query_block);
   const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-  const auto compare = [&](std::size_t, std::size_t q, std::size_t first, std::size_t last, const float* products) {
-    Match* const best = out.data() + q * k;
-    const float& worst = best[k - 1].distance;
-    for (std::size_t row = first; row < last; ++row) {
-      const float half_distance = (from.half_norm(q) - products[row - first]) + to.half_norm(row);
-      if (!(half_distance < 0.5f * worst)) continue;
+  const auto limits = [&](std::size_t q) { return simd::load(half_worst.data() + q); };
+  const auto compare = [&](std::size_t, std::size_t first, std::size_t row, const detail::PanelProducts& products) {
+    detail::for_candidates(from, first, *to.half_norm(row), products, limits, [&](std::size_t q) {
+      Match* const best = out.data() + q * k;
       const float distance = from.squared_distance_to(to, q, row);
-      if (distance < worst) detail::insert(best, k, {static_cast<std::uint32_t>(row), distance});
-    }
+      if (!(distance < best[k - 1].distance)) return;
+      detail::insert(best, k, {static_cast<std::uint32_t>(row), distance});
+      half_worst[q] = 0.5f * best[k - 1].distance;
+    });
   };
   detail::for_products(executor, team, from, to, compare);
   for (Match& match : out) {
@@ -6522,22 +6443,24 @@ template <class Threads = unsigned>
 
   const detail::ComparedRows from(source);
   const detail::ComparedRows to(target);
-  auto&& executor = detail::executor_of(threads, (source.count + detail::product_rows - 1) / detail::product_rows);
+  auto&& executor = detail::executor_of(threads, (source.count + detail::query_block - 1) / detail::query_block);
   const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
   const Match none{no_row, detail::out_of_reach};
   std::vector<Match> of_source(source.count, none);
+  std::vector<float> half_worst(detail::ComparedRows::whole_panels(source.count), 0.5f * detail::out_of_reach);
   std::vector<std::vector<Match>> of_target(team, std::vector<Match>(target.count, none));  // what each thread has seen
-  const auto compare = [&](std::size_t thread, std::size_t s, std::size_t first, std::size_t last,
-                           const float* products) {
-    Match& nearest_target = of_source[s];
-    Match* const nearest_source = of_target[thread].data();
-    for (std::size_t t = first; t < last; ++t) {
-      const float half_distance = (from.half_norm(s) - products[t - first]) + to.half_norm(t);
-      if (!(half_distance < 0.5f * std::max(nearest_target.distance, nearest_source[t].distance))) continue;
+  const auto compare = [&](std::size_t thread, std::size_t first, std::size_t t,
+                           const detail::PanelProducts& products) {
+    Match& nearest_source = of_target[thread][t];
+    const simd::F32 half_distance = simd::all(0.5f * nearest_source.distance);
+    const auto limits = [&](std::size_t s) { return simd::max(simd::load(half_worst.data() + s), half_distance); };
+    detail::for_candidates(from, first, *to.half_norm(t), products, limits, [&](std::size_t s) {
       const float distance = from.squared_distance_to(to, s, t);
-      if (distance < nearest_target.distance) nearest_target = {static_cast<std::uint32_t>(t), distance};
-      if (distance < nearest_source[t].distance) nearest_source[t] = {static_cast<std::uint32_t>(s), distance};
-    }
+      if (distance < nearest_source.distance) nearest_source = {static_cast<std::uint32_t>(s), distance};
+      if (!(distance < of_source[s].distance)) return;
+      of_source[s] = {static_cast<std::uint32_t>(t), distance};
+      half_worst[s] = 0.5f * distance;
+    });
   };
   detail::for_products(executor, team, from, to, compare);
   const std::vector<Match> sources = detail::nearest_of_all(of_target);
@@ -6553,15 +6476,11 @@ template <class Threads = unsigned>
 }  // namespace shortshot
 
 // shortshot/pose.hpp: the rigid motion that takes points to their correspondences, by least squares, and by RANSAC
-// where some correspondences are wrong. Hosted only: allocates. Needs Eigen.
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
-#include <random>
+// where some correspondences are wrong. Hosted only: allocates.
 
 namespace shortshot {
 
-/// A rigid motion: target = rotation * source + translation, in metres. Trivial type.
+/// A rigid motion: target = rotation * source + translation, in meters. Trivial type.
 struct Pose {
   float rotation[9];  ///< row by row; orthonormal, determinant +1
   float translation[3];
@@ -6576,7 +6495,7 @@ struct PointPair {
 /// Options of estimate_pose().
 struct RansacOptions {
   std::uint32_t iterations = 5000;  ///< samples of three pairs, from 1 on
-  float inlier_distance = 0.01f;    ///< metres between target and moved source; above 0, and its square a normal float
+  float inlier_distance = 0.01f;    ///< meters between target and moved source; above 0, and its square a normal float
   float edge_similarity = 0.9f;     ///< 0 to 1: samples with an edge whose lengths differ by more are skipped
   std::uint32_t seed = 1;           ///< of the samples' sequence
 };
@@ -6602,9 +6521,6 @@ inline namespace SHORTSHOT_ISA {
 
 namespace detail {
 
-// What needs Eigen's solver is a template, also where one type would do: its instantiation takes a compiler seconds,
-// for which only those shall wait who ask for a pose.
-
 /// ok, too_few_pairs or invalid_keypoint.
 template <class Pairs>
 [[nodiscard]] Status check_pairs(const Pairs& pairs) noexcept {
@@ -6615,33 +6531,56 @@ template <class Pairs>
   return finite ? Status::ok : Status::invalid_keypoint;
 }
 
-[[nodiscard]] inline Eigen::Vector3f vector(const Point& p) noexcept { return {p.x, p.y, p.z}; }
-
 /// The mean of some points. Offsets from the first are summed up: clouds may lie far from the origin.
 template <class PointAt>
-[[nodiscard]] Eigen::Vector3f centroid(std::size_t count, const PointAt& point_at) noexcept {
-  const Eigen::Vector3f first = point_at(0);
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (std::size_t i = 1; i < count; ++i) sum += point_at(i) - first;
-  return first + sum / static_cast<float>(count);
+[[nodiscard]] Point centroid(std::size_t count, const PointAt& point_at) noexcept {
+  const Point first = point_at(0);
+  Point sum{};
+  for (std::size_t i = 1; i < count; ++i) {
+    const Point p = point_at(i);
+    sum = {sum.x + (p.x - first.x), sum.y + (p.y - first.y), sum.z + (p.z - first.z)};
+  }
+  const auto n = static_cast<float>(count);
+  return {first.x + sum.x / n, first.y + sum.y / n, first.z + sum.z / n};
 }
 
-/// The matrix whose quadratic form of a unit quaternion (w, x, y, z) says how well this rotation aligns points with a
-/// given covariance, source by target (Horn 1987). Only its lower triangle.
-template <class Covariance>
-[[nodiscard]] Eigen::Matrix4f alignment(const Covariance& c) noexcept {
-  Eigen::Matrix4f m = Eigen::Matrix4f::Zero();
-  m(0, 0) = c(0, 0) + c(1, 1) + c(2, 2);
-  m(1, 1) = c(0, 0) - c(1, 1) - c(2, 2);
-  m(2, 2) = c(1, 1) - c(0, 0) - c(2, 2);
-  m(3, 3) = c(2, 2) - c(0, 0) - c(1, 1);
-  m(1, 0) = c(1, 2) - c(2, 1);
-  m(2, 0) = c(2, 0) - c(0, 2);
-  m(3, 0) = c(0, 1) - c(1, 0);
-  m(2, 1) = c(0, 1) + c(1, 0);
-  m(3, 1) = c(2, 0) + c(0, 2);
-  m(3, 2) = c(1, 2) + c(2, 1);
-  return m;
+/// The rotation that a unit quaternion (w, x, y, z) stands for, row by row.
+inline void rotation_of(const float (&q)[4], float (&rotation)[9]) noexcept {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;  // the axes after axis i, in cyclic order
+    const std::size_t k = (i + 2) % 3;
+    const auto product = [&q](std::size_t a, std::size_t b) { return rounded(q[a] * q[b]); };
+    rotation[3 * i + i] = 1.0f - rounded(2.0f * (product(1 + j, 1 + j) + product(1 + k, 1 + k)));
+    rotation[3 * i + j] = 2.0f * (product(1 + i, 1 + j) - product(0, 1 + k));
+    rotation[3 * i + k] = 2.0f * (product(1 + i, 1 + k) + product(0, 1 + j));
+  }
+}
+
+/// The rotation that best aligns points with a given covariance, source by target: of the unit quaternions that with
+/// the largest value of a quadratic form (Horn 1987), hence an eigenvector. ok or no_pose.
+[[nodiscard]] inline Status best_rotation(const float (&covariance)[3][3], float (&rotation)[9]) noexcept {
+  using simd::all;
+  float scale = 0.0f;
+  for (const auto& row : covariance) {
+    for (const float value : row) scale += __builtin_fabsf(value);
+  }
+  if (!math::is_finite(scale) || !(scale >= std::numeric_limits<float>::min())) return Status::no_pose;
+  const auto c = [&](std::size_t i, std::size_t k) { return covariance[i][k] / scale; };
+  const SymmetricMatrices<4> form{{all((c(0, 0) + c(1, 1)) + c(2, 2)), all(c(1, 2) - c(2, 1)), all(c(2, 0) - c(0, 2)),
+                                   all(c(0, 1) - c(1, 0)), all((c(0, 0) - c(1, 1)) - c(2, 2)), all(c(0, 1) + c(1, 0)),
+                                   all(c(2, 0) + c(0, 2)), all((c(1, 1) - c(0, 0)) - c(2, 2)), all(c(1, 2) + c(2, 1)),
+                                   all((c(2, 2) - c(0, 0)) - c(1, 1))}};
+  const Eigenvectors<4> eigen = decompose(form);
+  const auto number = [](simd::F32 lanes) { return simd::largest(lanes); };  // all of them are the same
+
+  // Two rotations that align equally well: points on a line, or the mirror image of something symmetric.
+  const float quality = number(eigen.value(3));
+  constexpr float tolerance = 1e-5f;  // a hundred times float's rounding
+  if (!(quality - number(eigen.value(2)) > tolerance * quality)) return Status::no_pose;
+  rotation_of(
+      {number(eigen.vector(3, 0)), number(eigen.vector(3, 1)), number(eigen.vector(3, 2)), number(eigen.vector(3, 3))},
+      rotation);
+  return Status::ok;
 }
 
 /// Least squares for three pairs or more, all finite.
@@ -6649,37 +6588,35 @@ template <class Pairs>
 [[nodiscard]] Status align(const Pairs& pairs, Pose& pose) noexcept {
   pose = Pose{};
   const std::size_t count = pairs.size();
-  const auto source_at = [&](std::size_t i) { return vector(pairs[i].source); };
-  const auto target_at = [&](std::size_t i) { return vector(pairs[i].target); };
-  const Eigen::Vector3f source = centroid(count, source_at);
-  const Eigen::Vector3f target = centroid(count, target_at);
-  Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
-  for (std::size_t i = 0; i < count; ++i) covariance += (source_at(i) - source) * (target_at(i) - target).transpose();
-  const float scale = covariance.cwiseAbs().sum();
-  if (!math::is_finite(scale) || !(scale >= std::numeric_limits<float>::min())) return Status::no_pose;
-
-  // Two rotations that align equally well: points on a line, or the mirror image of something symmetric.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4f> solver(alignment(covariance / scale));
-  const Eigen::Vector4f& quality = solver.eigenvalues();
-  constexpr float tolerance = 1e-5f;  // a hundred times float's rounding
-  if (!(quality[3] - quality[2] > tolerance * quality[3])) return Status::no_pose;
-
-  const Eigen::Vector4f q = solver.eigenvectors().col(3);
-  const Eigen::Matrix3f rotation = Eigen::Quaternionf(q[0], q[1], q[2], q[3]).toRotationMatrix();
-  const Eigen::Vector3f translation = target - rotation * source;
-  if (!math::is_finite(translation.cwiseAbs().sum())) return Status::no_pose;
-  Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(pose.rotation) = rotation;
-  Eigen::Map<Eigen::Vector3f>(pose.translation) = translation;
+  const Point source = centroid(count, [&](std::size_t i) { return pairs[i].source; });
+  const Point target = centroid(count, [&](std::size_t i) { return pairs[i].target; });
+  const auto offset = [](const Point& p, const Point& from) { return Point{p.x - from.x, p.y - from.y, p.z - from.z}; };
+  float covariance[3][3] = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point s = offset(pairs[i].source, source);
+    const Point t = offset(pairs[i].target, target);
+    for (std::size_t k = 0; k < 9; ++k) {
+      covariance[k / 3][k % 3] += rounded(coordinate(s, k / 3) * coordinate(t, k % 3));
+    }
+  }
+  Pose aligned{};
+  const Status status = best_rotation(covariance, aligned.rotation);
+  if (status != Status::ok) return status;
+  const Point translation = offset(target, apply(aligned, source));
+  if (!is_finite(translation)) return Status::no_pose;
+  for (std::size_t k = 0; k < 3; ++k) aligned.translation[k] = coordinate(translation, k);
+  pose = aligned;
   return Status::ok;
 }
 
 /// Samples of three different numbers below `count`, from 3 on: the same on every machine, which the standard library's
-/// distributions are not.
+/// distributions are not. From SplitMix64 (G. Steele, D. Lea, C. Flood: Fast splittable pseudorandom number generators,
+/// 2014), which takes any seed; <random> alone would cost whoever includes this a third of a second.
 class Samples {
  public:
-  Samples(std::uint32_t seed, std::size_t count) : engine_(seed), count_(count) {}
+  Samples(std::uint32_t seed, std::size_t count) noexcept : state_(seed), count_(count) {}
 
-  [[nodiscard]] std::array<std::size_t, 3> draw() {
+  [[nodiscard]] std::array<std::size_t, 3> draw() noexcept {
     const std::size_t a = below(count_);
     std::size_t b = below(count_ - 1);
     b += b >= a ? 1 : 0;
@@ -6690,11 +6627,14 @@ class Samples {
   }
 
  private:
-  [[nodiscard]] std::size_t below(std::size_t n) {
-    return static_cast<std::size_t>((std::uint64_t{engine_()} * n) >> 32);
+  [[nodiscard]] std::size_t below(std::size_t n) noexcept {
+    state_ += 0x9E3779B97F4A7C15u;
+    std::uint64_t mixed = (state_ ^ state_ >> 30) * 0xBF58476D1CE4E5B9u;
+    mixed = (mixed ^ mixed >> 27) * 0x94D049BB133111EBu;
+    return static_cast<std::size_t>((((mixed ^ mixed >> 31) >> 32) * n) >> 32);
   }
 
-  std::mt19937 engine_;
+  std::uint64_t state_;
   std::size_t count_;
 };
 
@@ -6760,7 +6700,8 @@ struct Consensus {
 /// `pairs`   PointPairs, all of the same weight: a std::vector, a std::array or the like
 ///
 /// Statuses: too_few_pairs (fewer than three), invalid_keypoint (a coordinate is not finite), no_pose (all points on a
-/// line, or squares outside of float's range). `pose` is all zeros then. O(pairs); allocates nothing.
+/// line, or squares outside of float's range). `pose` is all zeros then. The same bits on every machine, for pairs in
+/// the same order. O(pairs); allocates nothing.
 template <class Pairs>
 [[nodiscard]] Status fit_pose(const Pairs& pairs, Pose& pose) noexcept {
   pose = Pose{};
@@ -6776,7 +6717,7 @@ template <class Pairs>
 /// `inliers`   numbers of the pairs that the pose takes closer to their targets than the inlier distance, ascending.
 ///             Three pairs often agree by chance: judge a pose by how many they are
 ///
-/// The samples are the same for a seed on every machine, and the pose but for the rounding of Eigen's arithmetic.
+/// The same samples, inliers and pose for a seed, bit for bit, on every machine.
 ///
 /// Statuses: bad_option, too_few_pairs (fewer than three), invalid_keypoint (a coordinate is not finite), no_pose (no
 /// sample has a pose that three pairs agree on). `pose` is all zeros and `inliers` empty then. O(iterations * pairs) at
@@ -6816,7 +6757,7 @@ template <class Pairs>
 }  // namespace shortshot
 
 // shortshot/recognizer.hpp: which objects are where: an implicit shape model, whose descriptors vote for the centres of
-// objects. Hosted only: allocates, starts threads. Needs Eigen.
+// objects. Hosted only: allocates, starts threads.
 //
 // After B. Leibe, A. Leonardis, B. Schiele: Robust object detection with interleaved categorization and segmentation
 // (IJCV 77, 2008), with local reference frames in 3-D as in F. Tombari, L. Di Stefano: Object recognition in 3D scenes
@@ -7272,8 +7213,7 @@ class Recognizer {
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
-// shortshot/recognizer_model.hpp: a trained recogniser as bytes, or in a file. Hosted only: allocates. Needs Eigen
-// (match.hpp).
+// shortshot/recognizer_model.hpp: a trained recogniser as bytes, or in a file. Hosted only: allocates.
 //
 // All numbers are little-endian, floats by their bits, counts and lengths 8 bytes:
 //
@@ -7504,7 +7444,176 @@ inline void write(ModelWriter& to, const RecognizerOptions& options, const Codeb
 
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
-#endif
+
+// shortshot/sample.hpp: uniform key points, one per occupied voxel. Hosted only: allocates.
+
+#include <cmath>
+#include <tuple>
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+namespace detail {
+
+/// A valid point of a cloud in its voxel. Voxel numbers stay floats: whole numbers, exact up to 2^24 voxels from the
+/// origin, as the coordinates are.
+struct VoxelMember {
+  float voxel[3];
+  float place[3];  // in the voxel, from its corner, in voxels
+  float d2;        // to the voxel's centre, in voxels
+  std::uint32_t index;
+};
+
+[[nodiscard]] inline bool same_voxel(const VoxelMember& a, const VoxelMember& b) noexcept {
+  return a.voxel[0] == b.voxel[0] && a.voxel[1] == b.voxel[1] && a.voxel[2] == b.voxel[2];
+}
+
+/// All valid points, voxel after voxel, in each the one nearest to its centre first.
+[[nodiscard]] inline Status sort_into_voxels(const CloudView& cloud, float leaf, std::vector<VoxelMember>& members) {
+  const Status usable = check(cloud);
+  if (usable != Status::ok) return usable;
+  if (!math::is_finite(leaf) || !(leaf > 0.0f)) return Status::bad_leaf;
+  members.clear();
+  members.reserve(cloud.size);
+  for_each_valid(cloud, [&](std::size_t i, const Point& p) {
+    VoxelMember member{{}, {}, 0.0f, static_cast<std::uint32_t>(i)};
+    float from_center[3];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float position = coordinate(p, axis) / leaf;
+      member.voxel[axis] = std::floor(position);
+      member.place[axis] = position - member.voxel[axis];
+      from_center[axis] = member.place[axis] - 0.5f;
+    }
+    member.d2 = (rounded(from_center[0] * from_center[0]) + rounded(from_center[1] * from_center[1])) +
+                rounded(from_center[2] * from_center[2]);
+    members.push_back(member);
+  });
+  if (members.empty()) return Status::empty_cloud;
+  const auto key = [](const VoxelMember& m) { return std::tie(m.voxel[2], m.voxel[1], m.voxel[0], m.d2, m.index); };
+  std::sort(members.begin(), members.end(),
+            [&](const VoxelMember& a, const VoxelMember& b) { return key(a) < key(b); });
+  return Status::ok;
+}
+
+/// The centroid and the mean colour of one voxel's members.
+[[nodiscard]] inline KeyPoint centroid_of(const CloudView& cloud, float leaf, const VoxelMember* first,
+                                          const VoxelMember* end) noexcept {
+  const auto count = static_cast<std::uint32_t>(end - first);
+  float place[3] = {};
+  std::uint64_t rgb[3] = {};
+  for (const VoxelMember* member = first; member != end; ++member) {
+    for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += member->place[axis];
+    if (!has_colors(cloud)) continue;
+    const Rgb c = color(cloud, member->index);
+    rgb[0] += c.r;
+    rgb[1] += c.g;
+    rgb[2] += c.b;
+  }
+  const auto at = [&](std::size_t axis) {
+    return (first->voxel[axis] + place[axis] / static_cast<float>(count)) * leaf;
+  };
+  const auto mean = [&](std::size_t c) { return static_cast<std::uint8_t>((rgb[c] + count / 2) / count); };
+  return {{at(0), at(1), at(2)}, {mean(0), mean(1), mean(2)}};
+}
+
+}  // namespace detail
+
+/// One key point per voxel of `leaf` metres that holds a valid point: the point nearest to the voxel's centre (the one
+/// with the smaller index if two are as near). Voxels lie on a grid through the origin.
+/// `keypoints` receives indices into the cloud in ascending order. Statuses: empty_cloud (also if no point is valid),
+/// bad_view, bad_leaf. O(n log n); allocates 32 bytes a point; the same result on every machine.
+[[nodiscard]] inline Status sample_uniform(const CloudView& cloud, float leaf, std::vector<std::uint32_t>& keypoints) {
+  keypoints.clear();
+  std::vector<detail::VoxelMember> members;
+  const Status status = detail::sort_into_voxels(cloud, leaf, members);
+  if (status != Status::ok) return status;
+  const auto end = std::unique(members.begin(), members.end(), detail::same_voxel);
+  for (auto member = members.begin(); member != end; ++member) keypoints.push_back(member->index);
+  std::sort(keypoints.begin(), keypoints.end());
+  return Status::ok;
+}
+
+/// The same with the centroid and the mean colour (black without colours) of each voxel's points: less noise than any
+/// one of them has, which pays most where the key point's colour is what colour distances refer to. Voxels by z, then
+/// y, then x.
+[[nodiscard]] inline Status sample_centroids(const CloudView& cloud, float leaf, std::vector<KeyPoint>& keypoints) {
+  keypoints.clear();
+  std::vector<detail::VoxelMember> members;
+  const Status status = detail::sort_into_voxels(cloud, leaf, members);
+  if (status != Status::ok) return status;
+  const detail::VoxelMember* const end = members.data() + members.size();
+  for (const detail::VoxelMember* first = members.data(); first != end;) {
+    const detail::VoxelMember* next = first + 1;
+    while (next != end && detail::same_voxel(*first, *next)) ++next;
+    const KeyPoint centroid = detail::centroid_of(cloud, leaf, first, next);
+    // Beyond the reach of voxel numbers a point stands for itself.
+    keypoints.push_back(is_finite(centroid.position) ? centroid : keypoint(cloud, first->index));
+    first = next;
+  }
+  return Status::ok;
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+// shortshot/search/grid_hosted.hpp: the fixed-radius grid with memory of its own. Hosted only: build allocates.
+
+namespace shortshot {
+inline namespace SHORTSHOT_ISA {
+
+/// A fixed-radius grid that owns its memory: 16 bytes a valid point and 4 a cell, with as many cells as the cloud's box
+/// holds, but at most four a point (and 4,096). A search (see brute.hpp); the cloud must outlive it. build() again for
+/// the next frame: its memory is reused. Queries are thread-safe.
+class GridSearch {
+ public:
+  GridSearch() = default;
+
+  /// Sorts the cloud into cells of `radius`, or of half of it where points are dense. If that fails status() says why,
+  /// and so do extract() and describe_at().
+  GridSearch(const CloudView& cloud, float radius) { static_cast<void>(build(cloud, radius)); }
+
+  /// See GridIndex::build(); may throw std::bad_alloc.
+  [[nodiscard]] Status build(const CloudView& cloud, float radius) {
+    const std::size_t points = check(cloud) == Status::ok ? cloud.size : 0;  // a bad view says anything of its size
+    const std::size_t cells = 4 * points + 4096;
+    if (cell_end_.size() < planning_cells) cell_end_.resize(planning_cells);
+    grid_ = {};  // and so it stays if there is no memory
+    detail::Grid<std::uint32_t> next{};
+    if (next.plan(cloud, radius, {nullptr, cell_end_.data(), nullptr, points, cells}) != Status::ok) {
+      grid_ = next;
+      return next.status();
+    }
+    // Points lie on surfaces, which pass through few cells of their box: 8 points a cell of the box mean hundreds in
+    // those that are not empty, and then smaller cells, fewer of whose points lie outside the sphere, pay.
+    if (8 * next.cells() <= next.size()) next.halve_cells();
+    if (order_.size() < next.size()) {
+      order_.resize(next.size());
+      xyz_.resize(3 * next.size());
+    }
+    if (cell_end_.size() < next.cells()) cell_end_.resize(next.cells());
+    next.sort({order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cell_end_.size()});
+    grid_ = next;
+    return Status::ok;
+  }
+
+  [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
+
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
+    return grid_.gather({order_.data(), cell_end_.data(), xyz_.data()}, center, radius, out);
+  }
+
+ private:
+  static constexpr std::size_t planning_cells = 64;
+
+  detail::Grid<std::uint32_t> grid_{};
+  std::vector<std::uint32_t> order_;
+  std::vector<std::uint32_t> cell_end_;
+  std::vector<float> xyz_;
+};
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
 #endif
 
 #if defined(NANOFLANN_VERSION)

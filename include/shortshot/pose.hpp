@@ -1,16 +1,12 @@
 // shortshot/pose.hpp: the rigid motion that takes points to their correspondences, by least squares, and by RANSAC
-// where some correspondences are wrong. Hosted only: allocates. Needs Eigen.
+// where some correspondences are wrong. Hosted only: allocates.
 #pragma once
 
-#include <Eigen/Core>
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "cloud.hpp"
@@ -18,11 +14,13 @@
 #include "math.hpp"
 #include "neighborhood.hpp"
 #include "rounded.hpp"
+#include "simd.hpp"
 #include "status.hpp"
+#include "symmetric_eigen.hpp"
 
 namespace shortshot {
 
-/// A rigid motion: target = rotation * source + translation, in metres. Trivial type.
+/// A rigid motion: target = rotation * source + translation, in meters. Trivial type.
 struct Pose {
   float rotation[9];  ///< row by row; orthonormal, determinant +1
   float translation[3];
@@ -37,7 +35,7 @@ struct PointPair {
 /// Options of estimate_pose().
 struct RansacOptions {
   std::uint32_t iterations = 5000;  ///< samples of three pairs, from 1 on
-  float inlier_distance = 0.01f;    ///< metres between target and moved source; above 0, and its square a normal float
+  float inlier_distance = 0.01f;    ///< meters between target and moved source; above 0, and its square a normal float
   float edge_similarity = 0.9f;     ///< 0 to 1: samples with an edge whose lengths differ by more are skipped
   std::uint32_t seed = 1;           ///< of the samples' sequence
 };
@@ -63,9 +61,6 @@ inline namespace SHORTSHOT_ISA {
 
 namespace detail {
 
-// What needs Eigen's solver is a template, also where one type would do: its instantiation takes a compiler seconds,
-// for which only those shall wait who ask for a pose.
-
 /// ok, too_few_pairs or invalid_keypoint.
 template <class Pairs>
 [[nodiscard]] Status check_pairs(const Pairs& pairs) noexcept {
@@ -76,33 +71,56 @@ template <class Pairs>
   return finite ? Status::ok : Status::invalid_keypoint;
 }
 
-[[nodiscard]] inline Eigen::Vector3f vector(const Point& p) noexcept { return {p.x, p.y, p.z}; }
-
 /// The mean of some points. Offsets from the first are summed up: clouds may lie far from the origin.
 template <class PointAt>
-[[nodiscard]] Eigen::Vector3f centroid(std::size_t count, const PointAt& point_at) noexcept {
-  const Eigen::Vector3f first = point_at(0);
-  Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-  for (std::size_t i = 1; i < count; ++i) sum += point_at(i) - first;
-  return first + sum / static_cast<float>(count);
+[[nodiscard]] Point centroid(std::size_t count, const PointAt& point_at) noexcept {
+  const Point first = point_at(0);
+  Point sum{};
+  for (std::size_t i = 1; i < count; ++i) {
+    const Point p = point_at(i);
+    sum = {sum.x + (p.x - first.x), sum.y + (p.y - first.y), sum.z + (p.z - first.z)};
+  }
+  const auto n = static_cast<float>(count);
+  return {first.x + sum.x / n, first.y + sum.y / n, first.z + sum.z / n};
 }
 
-/// The matrix whose quadratic form of a unit quaternion (w, x, y, z) says how well this rotation aligns points with a
-/// given covariance, source by target (Horn 1987). Only its lower triangle.
-template <class Covariance>
-[[nodiscard]] Eigen::Matrix4f alignment(const Covariance& c) noexcept {
-  Eigen::Matrix4f m = Eigen::Matrix4f::Zero();
-  m(0, 0) = c(0, 0) + c(1, 1) + c(2, 2);
-  m(1, 1) = c(0, 0) - c(1, 1) - c(2, 2);
-  m(2, 2) = c(1, 1) - c(0, 0) - c(2, 2);
-  m(3, 3) = c(2, 2) - c(0, 0) - c(1, 1);
-  m(1, 0) = c(1, 2) - c(2, 1);
-  m(2, 0) = c(2, 0) - c(0, 2);
-  m(3, 0) = c(0, 1) - c(1, 0);
-  m(2, 1) = c(0, 1) + c(1, 0);
-  m(3, 1) = c(2, 0) + c(0, 2);
-  m(3, 2) = c(1, 2) + c(2, 1);
-  return m;
+/// The rotation that a unit quaternion (w, x, y, z) stands for, row by row.
+inline void rotation_of(const float (&q)[4], float (&rotation)[9]) noexcept {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;  // the axes after axis i, in cyclic order
+    const std::size_t k = (i + 2) % 3;
+    const auto product = [&q](std::size_t a, std::size_t b) { return rounded(q[a] * q[b]); };
+    rotation[3 * i + i] = 1.0f - rounded(2.0f * (product(1 + j, 1 + j) + product(1 + k, 1 + k)));
+    rotation[3 * i + j] = 2.0f * (product(1 + i, 1 + j) - product(0, 1 + k));
+    rotation[3 * i + k] = 2.0f * (product(1 + i, 1 + k) + product(0, 1 + j));
+  }
+}
+
+/// The rotation that best aligns points with a given covariance, source by target: of the unit quaternions that with
+/// the largest value of a quadratic form (Horn 1987), hence an eigenvector. ok or no_pose.
+[[nodiscard]] inline Status best_rotation(const float (&covariance)[3][3], float (&rotation)[9]) noexcept {
+  using simd::all;
+  float scale = 0.0f;
+  for (const auto& row : covariance) {
+    for (const float value : row) scale += __builtin_fabsf(value);
+  }
+  if (!math::is_finite(scale) || !(scale >= std::numeric_limits<float>::min())) return Status::no_pose;
+  const auto c = [&](std::size_t i, std::size_t k) { return covariance[i][k] / scale; };
+  const SymmetricMatrices<4> form{{all((c(0, 0) + c(1, 1)) + c(2, 2)), all(c(1, 2) - c(2, 1)), all(c(2, 0) - c(0, 2)),
+                                   all(c(0, 1) - c(1, 0)), all((c(0, 0) - c(1, 1)) - c(2, 2)), all(c(0, 1) + c(1, 0)),
+                                   all(c(2, 0) + c(0, 2)), all((c(1, 1) - c(0, 0)) - c(2, 2)), all(c(1, 2) + c(2, 1)),
+                                   all((c(2, 2) - c(0, 0)) - c(1, 1))}};
+  const Eigenvectors<4> eigen = decompose(form);
+  const auto number = [](simd::F32 lanes) { return simd::largest(lanes); };  // all of them are the same
+
+  // Two rotations that align equally well: points on a line, or the mirror image of something symmetric.
+  const float quality = number(eigen.value(3));
+  constexpr float tolerance = 1e-5f;  // a hundred times float's rounding
+  if (!(quality - number(eigen.value(2)) > tolerance * quality)) return Status::no_pose;
+  rotation_of(
+      {number(eigen.vector(3, 0)), number(eigen.vector(3, 1)), number(eigen.vector(3, 2)), number(eigen.vector(3, 3))},
+      rotation);
+  return Status::ok;
 }
 
 /// Least squares for three pairs or more, all finite.
@@ -110,37 +128,35 @@ template <class Pairs>
 [[nodiscard]] Status align(const Pairs& pairs, Pose& pose) noexcept {
   pose = Pose{};
   const std::size_t count = pairs.size();
-  const auto source_at = [&](std::size_t i) { return vector(pairs[i].source); };
-  const auto target_at = [&](std::size_t i) { return vector(pairs[i].target); };
-  const Eigen::Vector3f source = centroid(count, source_at);
-  const Eigen::Vector3f target = centroid(count, target_at);
-  Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
-  for (std::size_t i = 0; i < count; ++i) covariance += (source_at(i) - source) * (target_at(i) - target).transpose();
-  const float scale = covariance.cwiseAbs().sum();
-  if (!math::is_finite(scale) || !(scale >= std::numeric_limits<float>::min())) return Status::no_pose;
-
-  // Two rotations that align equally well: points on a line, or the mirror image of something symmetric.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4f> solver(alignment(covariance / scale));
-  const Eigen::Vector4f& quality = solver.eigenvalues();
-  constexpr float tolerance = 1e-5f;  // a hundred times float's rounding
-  if (!(quality[3] - quality[2] > tolerance * quality[3])) return Status::no_pose;
-
-  const Eigen::Vector4f q = solver.eigenvectors().col(3);
-  const Eigen::Matrix3f rotation = Eigen::Quaternionf(q[0], q[1], q[2], q[3]).toRotationMatrix();
-  const Eigen::Vector3f translation = target - rotation * source;
-  if (!math::is_finite(translation.cwiseAbs().sum())) return Status::no_pose;
-  Eigen::Map<Eigen::Matrix<float, 3, 3, Eigen::RowMajor>>(pose.rotation) = rotation;
-  Eigen::Map<Eigen::Vector3f>(pose.translation) = translation;
+  const Point source = centroid(count, [&](std::size_t i) { return pairs[i].source; });
+  const Point target = centroid(count, [&](std::size_t i) { return pairs[i].target; });
+  const auto offset = [](const Point& p, const Point& from) { return Point{p.x - from.x, p.y - from.y, p.z - from.z}; };
+  float covariance[3][3] = {};
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point s = offset(pairs[i].source, source);
+    const Point t = offset(pairs[i].target, target);
+    for (std::size_t k = 0; k < 9; ++k) {
+      covariance[k / 3][k % 3] += rounded(coordinate(s, k / 3) * coordinate(t, k % 3));
+    }
+  }
+  Pose aligned{};
+  const Status status = best_rotation(covariance, aligned.rotation);
+  if (status != Status::ok) return status;
+  const Point translation = offset(target, apply(aligned, source));
+  if (!is_finite(translation)) return Status::no_pose;
+  for (std::size_t k = 0; k < 3; ++k) aligned.translation[k] = coordinate(translation, k);
+  pose = aligned;
   return Status::ok;
 }
 
 /// Samples of three different numbers below `count`, from 3 on: the same on every machine, which the standard library's
-/// distributions are not.
+/// distributions are not. From SplitMix64 (G. Steele, D. Lea, C. Flood: Fast splittable pseudorandom number generators,
+/// 2014), which takes any seed; <random> alone would cost whoever includes this a third of a second.
 class Samples {
  public:
-  Samples(std::uint32_t seed, std::size_t count) : engine_(seed), count_(count) {}
+  Samples(std::uint32_t seed, std::size_t count) noexcept : state_(seed), count_(count) {}
 
-  [[nodiscard]] std::array<std::size_t, 3> draw() {
+  [[nodiscard]] std::array<std::size_t, 3> draw() noexcept {
     const std::size_t a = below(count_);
     std::size_t b = below(count_ - 1);
     b += b >= a ? 1 : 0;
@@ -151,11 +167,14 @@ class Samples {
   }
 
  private:
-  [[nodiscard]] std::size_t below(std::size_t n) {
-    return static_cast<std::size_t>((std::uint64_t{engine_()} * n) >> 32);
+  [[nodiscard]] std::size_t below(std::size_t n) noexcept {
+    state_ += 0x9E3779B97F4A7C15u;
+    std::uint64_t mixed = (state_ ^ state_ >> 30) * 0xBF58476D1CE4E5B9u;
+    mixed = (mixed ^ mixed >> 27) * 0x94D049BB133111EBu;
+    return static_cast<std::size_t>((((mixed ^ mixed >> 31) >> 32) * n) >> 32);
   }
 
-  std::mt19937 engine_;
+  std::uint64_t state_;
   std::size_t count_;
 };
 
@@ -221,7 +240,8 @@ struct Consensus {
 /// `pairs`   PointPairs, all of the same weight: a std::vector, a std::array or the like
 ///
 /// Statuses: too_few_pairs (fewer than three), invalid_keypoint (a coordinate is not finite), no_pose (all points on a
-/// line, or squares outside of float's range). `pose` is all zeros then. O(pairs); allocates nothing.
+/// line, or squares outside of float's range). `pose` is all zeros then. The same bits on every machine, for pairs in
+/// the same order. O(pairs); allocates nothing.
 template <class Pairs>
 [[nodiscard]] Status fit_pose(const Pairs& pairs, Pose& pose) noexcept {
   pose = Pose{};
@@ -237,7 +257,7 @@ template <class Pairs>
 /// `inliers`   numbers of the pairs that the pose takes closer to their targets than the inlier distance, ascending.
 ///             Three pairs often agree by chance: judge a pose by how many they are
 ///
-/// The samples are the same for a seed on every machine, and the pose but for the rounding of Eigen's arithmetic.
+/// The same samples, inliers and pose for a seed, bit for bit, on every machine.
 ///
 /// Statuses: bad_option, too_few_pairs (fewer than three), invalid_keypoint (a coordinate is not finite), no_pose (no
 /// sample has a pose that three pairs agree on). `pose` is all zeros and `inliers` empty then. O(iterations * pairs) at

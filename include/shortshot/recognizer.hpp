@@ -1,5 +1,5 @@
 // shortshot/recognizer.hpp: which objects are where: an implicit shape model, whose descriptors vote for the centres of
-// objects. Hosted only: allocates, starts threads. Needs Eigen.
+// objects. Hosted only: allocates, starts threads.
 //
 // After B. Leibe, A. Leonardis, B. Schiele: Robust object detection with interleaved categorization and segmentation
 // (IJCV 77, 2008), with local reference frames in 3-D as in F. Tombari, L. Di Stefano: Object recognition in 3D scenes

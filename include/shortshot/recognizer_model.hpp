@@ -1,5 +1,4 @@
-// shortshot/recognizer_model.hpp: a trained recogniser as bytes, or in a file. Hosted only: allocates. Needs Eigen
-// (match.hpp).
+// shortshot/recognizer_model.hpp: a trained recogniser as bytes, or in a file. Hosted only: allocates.
 //
 // All numbers are little-endian, floats by their bits, counts and lengths 8 bytes:
 //

@@ -2,9 +2,9 @@
 // CSHOT, B-SHOT).
 //
 // The umbrella. On bare metal it is the kernel: no heap, no exceptions, no operating system. Where there is an
-// operating system it adds what allocates: extract() for many key points, sampling, a grid with memory of its own.
-// Include <nanoflann.hpp> BEFORE it and NanoflannSearch is there as well; with <Eigen/Core>, view_eigen(), and on an
-// operating system matching, poses and the recogniser.
+// operating system it adds what allocates: extract() for many key points, sampling, a grid with memory of its own,
+// matching, poses and the recognizer. Include <nanoflann.hpp> BEFORE it and NanoflannSearch is there as well; with
+// <Eigen/Core>, view_eigen().
 #pragma once
 
 #include "adapters/point_cloud2.hpp"
@@ -16,15 +16,13 @@
 #include "estimate_normals.hpp"
 #include "extract.hpp"
 #include "layout.hpp"
-#include "rows.hpp"
-#include "sample.hpp"
-#include "search/grid_hosted.hpp"
-#if defined(EIGEN_WORLD_VERSION)
 #include "match.hpp"
 #include "pose.hpp"
 #include "recognizer.hpp"
 #include "recognizer_model.hpp"
-#endif
+#include "rows.hpp"
+#include "sample.hpp"
+#include "search/grid_hosted.hpp"
 #endif
 
 #if defined(NANOFLANN_VERSION)

@@ -88,8 +88,6 @@ std::size_t describe_all(const shortshot::CloudView& cloud) {
   return rows;
 }
 
-#if defined(__cpp_exceptions)
-/// Everything that needs Eigen.
 std::size_t recognize(const shortshot::CloudView& cloud) {
   std::vector<shortshot::KeyPoint> keypoints;
   shortshot::Features<shortshot::Ssh32> features;
@@ -124,7 +122,6 @@ std::size_t recognize(const shortshot::CloudView& cloud) {
   if (recognizer.activation_shares(features, shares) != shortshot::Status::ok) return 0;
   return hypotheses.size() + shares.classes.size() + inliers.size();
 }
-#endif
 
 }  // namespace
 
