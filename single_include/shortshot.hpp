@@ -3126,6 +3126,16 @@ template <int N>
   return above_p < q ? above_p : above_p + 1;
 }
 
+/// each() for the frames' 3x3 matrices; for others, which fewer wait for, a loop, which is compiled in less time.
+template <int N, int Count, class Function>
+SHORTSHOT_INLINE void repeat(Function f) noexcept {
+  if constexpr (N == 3) {
+    each<Count>(f);
+  } else {
+    for (int i = 0; i < Count; ++i) f(i);
+  }
+}
+
 /// One Jacobi rotation in the plane (p, q), q > p, in those lanes where it is worth while: it makes zero what couples
 /// the two axes. Entries are at most 2. Returns whether it was worth while anywhere.
 template <int N>
@@ -3153,7 +3163,7 @@ SHORTSHOT_INLINE bool rotate(Eigenvectors<N>& e, Couplings<N>& off, int p, int q
   coupling = select(turns, all(0.0f), coupling);
   F32* first = &off.between(p, other_axis<N>(0, p, q));
   F32* second = &off.between(q, other_axis<N>(0, p, q));
-  each<N - 2 + N>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+  repeat<N, N - 2 + N>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
     const F32 at_p = *first;
     const F32 at_q = *second;
     *first = c * at_p - s * at_q;
@@ -3179,8 +3189,8 @@ template <int N = 3>
   Eigenvectors<N> e;
   Couplings<N> off;
   const F32* entry = m.entry;
-  each<N>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
-    each<N>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+  repeat<N, N>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
+    repeat<N, N>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
       e.of[i][k] = all(i == k ? 1.0f : 0.0f);
       if (k >= i) (k == i ? e.of[i][N] : off.between(i, k)) = *entry++ * unit;
     });
@@ -3194,23 +3204,23 @@ template <int N = 3>
   }
 
   // Sort: exchange neighbors, from 0 and 1 to the last ones, again and again; at last 0 and 1.
-  each<(N - 1) * (N - 2) + 1>([&](auto step) SHORTSHOT_INLINE_LAMBDA {
+  repeat<N, (N - 1) * (N - 2) + 1>([&](auto step) SHORTSHOT_INLINE_LAMBDA {
     F32(&first)[N + 1] = e.of[step % (N - 1)];
     F32(&second)[N + 1] = e.of[step % (N - 1) + 1];
     const simd::Mask swap = second[N] < first[N];
     if (!any(swap)) return;
-    each<N + 1>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+    repeat<N, N + 1>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
       const F32 before = first[k];
       first[k] = select(swap, second[k], before);
       second[k] = select(swap, before, second[k]);
     });
   });
-  each<N>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
+  repeat<N, N>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
     F32(&v)[N + 1] = e.of[i];
     F32 squares = v[0] * v[0];
     unroll<N - 1>([&](auto k) { squares = squares + v[k + 1] * v[k + 1]; });
     const F32 length = simd::sqrt(squares);
-    each<N>([&](auto k) { v[k] = v[k] / length; });
+    repeat<N, N>([&](auto k) { v[k] = v[k] / length; });
     v[N] = v[N] * scale;
   });
   return e;
@@ -5532,17 +5542,22 @@ class StartedThreads {
 
   template <class Work>
   void run(const Work& work) const {
+    run_erased([](const void* erased) { (*static_cast<const Work*>(erased))(); }, &work);
+  }
+
+ private:
+  /// Compiled once for all work: std::thread and a vector of them take a compiler their time.
+  void run_erased(void (*call)(const void* work), const void* work) const {
     struct Threads : std::vector<std::thread> {
       ~Threads() {  // also when one more thread cannot be started: those that run finish the work
         for (std::thread& thread : *this) thread.join();
       }
     } others;
     others.reserve(threads_ - 1);
-    for (std::size_t t = 1; t < threads_; ++t) others.emplace_back(work);
-    work();
+    for (std::size_t t = 1; t < threads_; ++t) others.emplace_back(call, work);
+    call(work);
   }
 
- private:
   std::size_t threads_;
 };
 
@@ -6005,7 +6020,6 @@ template <class D, class Color, class Search, class Threads = unsigned>
 // shortshot/layout.hpp: what the values of a descriptor mean, as text: for files, and for code that knows descriptors
 // only at run time. Hosted only: allocates.
 
-#include <numeric>
 #include <string>
 
 namespace shortshot {
@@ -6017,49 +6031,57 @@ struct HasName : std::false_type {};
 template <class Policy>
 struct HasName<Policy, std::void_t<decltype(std::string(Policy::name))>> : std::true_type {};
 
+// Called, not inlined: text is put together from many pieces, and a compiler would take its time for each.
+[[gnu::noinline]] inline void add(std::string& text, const char* more) { text += more; }
+[[gnu::noinline]] inline void add(std::string& text, int number) { text += std::to_string(number); }
+template <class... Pieces>
+void add_all(std::string& text, Pieces... pieces) {
+  (add(text, pieces), ...);
+}
+
 template <class Policy>
-[[nodiscard]] std::string name_of() {
+[[nodiscard]] const char* name_of() noexcept {
   static_assert(HasName<Policy>::value,
                 "layout_of<D>() supports policies with `static constexpr const char* name`, which must tell them from "
                 "all others");
   return Policy::name;
 }
 
+[[nodiscard]] constexpr int greatest_common_divisor(int a, int b) noexcept {
+  return b == 0 ? a : greatest_common_divisor(b, a % b);
+}
+
 /// What a radius scale's name leaves open.
 template <class Scale>
 struct ScaleParameters {
-  [[nodiscard]] static std::string text() { return {}; }
+  static void add_to(std::string&) {}
 };
 template <int Numerator, int Denominator>
 struct ScaleParameters<LogRadius<Numerator, Denominator>> {
-  [[nodiscard]] static std::string text() {
-    constexpr int common = std::gcd(Numerator, Denominator);
-    return " from " + std::to_string(Numerator / common) + '/' + std::to_string(Denominator / common);
+  static void add_to(std::string& text) {
+    constexpr int common = greatest_common_divisor(Numerator, Denominator);
+    add_all(text, " from ", Numerator / common, "/", Denominator / common);
   }
 };
 
-template <class Signal>
-[[nodiscard]] std::string signal_text() {
-  std::string text = name_of<Signal>();
-  if constexpr (Signal::has_histogram) text += ' ' + std::to_string(Signal::bins) + " bins";
-  if constexpr (!std::is_void<typename Signal::Rule>::value) text += " (" + name_of<typename Signal::Rule>() + ')';
-  return text;
-}
-
 template <class Part>
-[[nodiscard]] std::string part_text() {
+void add_part(std::string& text) {
+  using Signal = typename Part::Signal;
   using Grid = typename Part::Grid;
   using Scale = typename Part::Scale;
-  return signal_text<typename Part::Signal>() + ' ' + std::to_string(Grid::radial) + 'x' +
-         std::to_string(Grid::elevation) + 'x' + std::to_string(Grid::azimuth) + ' ' + name_of<Scale>() +
-         ScaleParameters<Scale>::text();
+  add(text, name_of<Signal>());
+  if constexpr (Signal::has_histogram) add_all(text, " ", Signal::bins, " bins");
+  if constexpr (!std::is_void<typename Signal::Rule>::value) add_all(text, " (", name_of<typename Signal::Rule>(), ")");
+  add_all(text, " ", Grid::radial, "x", Grid::elevation, "x", Grid::azimuth, " ", name_of<Scale>());
+  ScaleParameters<Scale>::add_to(text);
 }
 
 template <class Voting, class... Parts>
 [[nodiscard]] std::string layout_text(const Descriptor<Voting, Parts...>*) {
-  std::string text = name_of<Voting>() + ", " + name_of<typename Descriptor<Voting, Parts...>::Cells>();
+  std::string text;
+  add_all(text, name_of<Voting>(), ", ", name_of<typename Descriptor<Voting, Parts...>::Cells>());
   const char* separator = ": ";
-  ((text += separator + part_text<Parts>(), separator = " | "), ...);
+  ((add(text, separator), add_part<Parts>(text), separator = " | "), ...);
   return text;
 }
 
@@ -6115,7 +6137,7 @@ struct PanelProducts {
 };
 
 /// Puts rows side by side: value 0 of all of them, then value 1, and so on.
-inline void pack(const float* const (&rows)[panel_rows], std::size_t size, float* panel) noexcept {
+[[gnu::noinline]] inline void pack(const float* const (&rows)[panel_rows], std::size_t size, float* panel) noexcept {
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t k = 0; k < panel_rows; k += simd::lanes) {
       simd::store(panel, simd::from_lanes([&](std::size_t lane) { return rows[k + lane][i]; }));
@@ -6124,8 +6146,8 @@ inline void pack(const float* const (&rows)[panel_rows], std::size_t size, float
   }
 }
 
-inline void multiply(const float* panel, const float* const (&rows)[tile_rows], std::size_t size,
-                     PanelProducts (&products)[tile_rows]) noexcept {
+[[gnu::noinline]] inline void multiply(const float* panel, const float* const (&rows)[tile_rows], std::size_t size,
+                                       PanelProducts (&products)[tile_rows]) noexcept {
   simd::F32 sums[tile_rows][panel_registers];
   const float* row[tile_rows];
   unroll<tile_rows>([&](auto r) {
@@ -6368,17 +6390,14 @@ inline void insert(Match* best, std::size_t k, const Match& match) noexcept {
   best[at] = match;
 }
 
-/// The nearest match of each row among those that the threads have seen.
-[[nodiscard]] inline std::vector<Match> nearest_of_all(const std::vector<std::vector<Match>>& seen) {
-  std::vector<Match> best = seen.front();
-  for (const std::vector<Match>& matches : seen) {
-    for (std::size_t i = 0; i < best.size(); ++i) {
-      const Match& match = matches[i];
-      const bool nearer = match.distance < best[i].distance;
-      if (nearer || (match.distance == best[i].distance && match.row < best[i].row)) best[i] = match;
-    }
+/// The nearest match of each of `count` rows, among those that all threads have seen, to where the first one's is.
+inline void merge(std::vector<Match>& seen, std::size_t count) noexcept {
+  for (std::size_t i = count; i < seen.size(); ++i) {
+    const Match& match = seen[i];
+    Match& best = seen[i % count];
+    const bool nearer = match.distance < best.distance;
+    if (nearer || (match.distance == best.distance && match.row < best.row)) best = match;
   }
-  return best;
 }
 
 }  // namespace detail
@@ -6448,10 +6467,10 @@ template <class Threads = unsigned>
   const Match none{no_row, detail::out_of_reach};
   std::vector<Match> of_source(source.count, none);
   std::vector<float> half_worst(detail::ComparedRows::whole_panels(source.count), 0.5f * detail::out_of_reach);
-  std::vector<std::vector<Match>> of_target(team, std::vector<Match>(target.count, none));  // what each thread has seen
+  std::vector<Match> of_target(team * target.count, none);  // what each thread has seen, one after the other
   const auto compare = [&](std::size_t thread, std::size_t first, std::size_t t,
                            const detail::PanelProducts& products) {
-    Match& nearest_source = of_target[thread][t];
+    Match& nearest_source = of_target[thread * target.count + t];
     const simd::F32 half_distance = simd::all(0.5f * nearest_source.distance);
     const auto limits = [&](std::size_t s) { return simd::max(simd::load(half_worst.data() + s), half_distance); };
     detail::for_candidates(from, first, *to.half_norm(t), products, limits, [&](std::size_t s) {
@@ -6463,10 +6482,10 @@ template <class Threads = unsigned>
     });
   };
   detail::for_products(executor, team, from, to, compare);
-  const std::vector<Match> sources = detail::nearest_of_all(of_target);
+  detail::merge(of_target, target.count);
   for (std::size_t s = 0; s < source.count; ++s) {
     const Match& match = of_source[s];
-    if (match.row == no_row || sources[match.row].row != s) continue;
+    if (match.row == no_row || of_target[match.row].row != s) continue;
     out.push_back({static_cast<std::uint32_t>(s), match.row, simd::root(match.distance)});
   }
   return Status::ok;
@@ -6475,8 +6494,10 @@ template <class Threads = unsigned>
 }  // namespace SHORTSHOT_ISA
 }  // namespace shortshot
 
-// shortshot/pose.hpp: the rigid motion that takes points to their correspondences, by least squares, and by RANSAC
-// where some correspondences are wrong. Hosted only: allocates.
+// shortshot/pose.hpp: the rigid motion that takes points to their correspondences, some of which are wrong, by RANSAC.
+// Hosted only: allocates.
+
+// shortshot/fit_pose.hpp: the rigid motion that takes points to their correspondences, by least squares. Hosted only.
 
 namespace shortshot {
 
@@ -6492,14 +6513,6 @@ struct PointPair {
   Point target;
 };
 
-/// Options of estimate_pose().
-struct RansacOptions {
-  std::uint32_t iterations = 5000;  ///< samples of three pairs, from 1 on
-  float inlier_distance = 0.01f;    ///< meters between target and moved source; above 0, and its square a normal float
-  float edge_similarity = 0.9f;     ///< 0 to 1: samples with an edge whose lengths differ by more are skipped
-  std::uint32_t seed = 1;           ///< of the samples' sequence
-};
-
 inline namespace SHORTSHOT_ISA {
 
 /// Where a motion takes a point.
@@ -6511,36 +6524,47 @@ inline namespace SHORTSHOT_ISA {
   return {component(0), component(1), component(2)};
 }
 
-/// ok or bad_option.
-[[nodiscard]] inline Status check(const RansacOptions& options) noexcept {
-  const bool similarity =
-      math::is_finite(options.edge_similarity) && options.edge_similarity >= 0.0f && options.edge_similarity <= 1.0f;
-  const bool distance = check(Radius(options.inlier_distance)) == Status::ok;
-  return options.iterations > 0 && similarity && distance ? Status::ok : Status::bad_option;
-}
-
 namespace detail {
 
+/// Pairs, borrowed.
+class PairsView {
+ public:
+  template <class Pairs>
+  explicit PairsView(const Pairs& pairs) noexcept : data_(pairs.data()), size_(pairs.size()) {}
+
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] const PointPair& operator[](std::size_t i) const noexcept { return data_[i]; }
+  [[nodiscard]] const PointPair* begin() const noexcept { return data_; }
+  [[nodiscard]] const PointPair* end() const noexcept { return data_ + size_; }
+
+ private:
+  const PointPair* data_;
+  std::size_t size_;
+};
+
 /// ok, too_few_pairs or invalid_keypoint.
-template <class Pairs>
-[[nodiscard]] Status check_pairs(const Pairs& pairs) noexcept {
+[[nodiscard]] inline Status check_pairs(const PairsView& pairs) noexcept {
   if (pairs.size() < 3) return Status::too_few_pairs;
-  const bool finite = std::all_of(pairs.begin(), pairs.end(), [](const PointPair& pair) {
-    return is_finite(pair.source) && is_finite(pair.target);
-  });
-  return finite ? Status::ok : Status::invalid_keypoint;
+  for (const PointPair& pair : pairs) {
+    if (!is_finite(pair.source) || !is_finite(pair.target)) return Status::invalid_keypoint;
+  }
+  return Status::ok;
 }
 
-/// The mean of some points. Offsets from the first are summed up: clouds may lie far from the origin.
-template <class PointAt>
-[[nodiscard]] Point centroid(std::size_t count, const PointAt& point_at) noexcept {
-  const Point first = point_at(0);
+[[nodiscard]] inline Point operator-(const Point& a, const Point& b) noexcept {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+/// The mean of one of the points of each pair. Offsets from the first are summed up: clouds may lie far from the
+/// origin.
+[[nodiscard]] inline Point centroid(const PairsView& pairs, Point PointPair::*point) noexcept {
+  const Point first = pairs[0].*point;
   Point sum{};
-  for (std::size_t i = 1; i < count; ++i) {
-    const Point p = point_at(i);
-    sum = {sum.x + (p.x - first.x), sum.y + (p.y - first.y), sum.z + (p.z - first.z)};
+  for (const PointPair& pair : pairs) {
+    const Point offset = pair.*point - first;
+    sum = {sum.x + offset.x, sum.y + offset.y, sum.z + offset.z};
   }
-  const auto n = static_cast<float>(count);
+  const auto n = static_cast<float>(pairs.size());
   return {first.x + sum.x / n, first.y + sum.y / n, first.z + sum.z / n};
 }
 
@@ -6584,17 +6608,14 @@ inline void rotation_of(const float (&q)[4], float (&rotation)[9]) noexcept {
 }
 
 /// Least squares for three pairs or more, all finite.
-template <class Pairs>
-[[nodiscard]] Status align(const Pairs& pairs, Pose& pose) noexcept {
+[[nodiscard]] inline Status align(const PairsView& pairs, Pose& pose) noexcept {
   pose = Pose{};
-  const std::size_t count = pairs.size();
-  const Point source = centroid(count, [&](std::size_t i) { return pairs[i].source; });
-  const Point target = centroid(count, [&](std::size_t i) { return pairs[i].target; });
-  const auto offset = [](const Point& p, const Point& from) { return Point{p.x - from.x, p.y - from.y, p.z - from.z}; };
+  const Point source = centroid(pairs, &PointPair::source);
+  const Point target = centroid(pairs, &PointPair::target);
   float covariance[3][3] = {};
-  for (std::size_t i = 0; i < count; ++i) {
-    const Point s = offset(pairs[i].source, source);
-    const Point t = offset(pairs[i].target, target);
+  for (const PointPair& pair : pairs) {
+    const Point s = pair.source - source;
+    const Point t = pair.target - target;
     for (std::size_t k = 0; k < 9; ++k) {
       covariance[k / 3][k % 3] += rounded(coordinate(s, k / 3) * coordinate(t, k % 3));
     }
@@ -6602,12 +6623,55 @@ template <class Pairs>
   Pose aligned{};
   const Status status = best_rotation(covariance, aligned.rotation);
   if (status != Status::ok) return status;
-  const Point translation = offset(target, apply(aligned, source));
+  const Point translation = target - apply(aligned, source);
   if (!is_finite(translation)) return Status::no_pose;
   for (std::size_t k = 0; k < 3; ++k) aligned.translation[k] = coordinate(translation, k);
   pose = aligned;
   return Status::ok;
 }
+
+}  // namespace detail
+
+/// The rigid motion with the least sum of squared distances between targets and moved sources: Kabsch's problem, solved
+/// with quaternions, so that a reflection is never an answer (B. Horn, "Closed-form solution of absolute orientation
+/// using unit quaternions", 1987).
+///
+/// `pairs`   PointPairs, all of the same weight: a std::vector, a std::array or the like
+///
+/// Statuses: too_few_pairs (fewer than three), invalid_keypoint (a coordinate is not finite), no_pose (all points on a
+/// line, or squares outside of float's range). `pose` is all zeros then. The same bits on every machine, for pairs in
+/// the same order. O(pairs); allocates nothing.
+template <class Pairs>
+[[nodiscard]] Status fit_pose(const Pairs& pairs, Pose& pose) noexcept {
+  pose = Pose{};
+  const Status usable = detail::check_pairs(detail::PairsView(pairs));
+  return usable == Status::ok ? detail::align(detail::PairsView(pairs), pose) : usable;
+}
+
+}  // namespace SHORTSHOT_ISA
+}  // namespace shortshot
+
+namespace shortshot {
+
+/// Options of estimate_pose().
+struct RansacOptions {
+  std::uint32_t iterations = 5000;  ///< samples of three pairs, from 1 on
+  float inlier_distance = 0.01f;    ///< meters between target and moved source; above 0, and its square a normal float
+  float edge_similarity = 0.9f;     ///< 0 to 1: samples with an edge whose lengths differ by more are skipped
+  std::uint32_t seed = 1;           ///< of the samples' sequence
+};
+
+inline namespace SHORTSHOT_ISA {
+
+/// ok or bad_option.
+[[nodiscard]] inline Status check(const RansacOptions& options) noexcept {
+  const bool similarity =
+      math::is_finite(options.edge_similarity) && options.edge_similarity >= 0.0f && options.edge_similarity <= 1.0f;
+  const bool distance = check(Radius(options.inlier_distance)) == Status::ok;
+  return options.iterations > 0 && similarity && distance ? Status::ok : Status::bad_option;
+}
+
+namespace detail {
 
 /// Samples of three different numbers below `count`, from 3 on: the same on every machine, which the standard library's
 /// distributions are not. From SplitMix64 (G. Steele, D. Lea, C. Flood: Fast splittable pseudorandom number generators,
@@ -6652,17 +6716,17 @@ class Samples {
 }
 
 /// Pairs, and how near to its target a motion must take a source.
-template <class Pairs>
 struct Consensus {
-  const Pairs& pairs;
+  PairsView pairs;
   Radius reach;
 
   [[nodiscard]] bool agrees(const Pose& pose, const PointPair& pair) const noexcept {
     return squared_distance(pair.target, apply(pose, pair.source)) < reach.squared;
   }
   [[nodiscard]] std::size_t count(const Pose& pose) const noexcept {
-    return static_cast<std::size_t>(
-        std::count_if(pairs.begin(), pairs.end(), [&](const PointPair& pair) { return agrees(pose, pair); }));
+    std::size_t count = 0;
+    for (const PointPair& pair : pairs) count += agrees(pose, pair) ? 1 : 0;
+    return count;
   }
   void find(const Pose& pose, std::vector<std::uint32_t>& inliers) const {
     inliers.clear();
@@ -6681,7 +6745,7 @@ struct Consensus {
       agreeing.clear();
       for (const std::uint32_t i : inliers) agreeing.push_back(pairs[i]);
       Pose refined;
-      if (align(agreeing, refined) != Status::ok) return;
+      if (align(PairsView(agreeing), refined) != Status::ok) return;
       find(refined, refined_inliers);
       if (refined_inliers.size() < inliers.size()) return;
       grows = refined_inliers.size() > inliers.size();
@@ -6691,23 +6755,33 @@ struct Consensus {
   }
 };
 
-}  // namespace detail
-
-/// The rigid motion with the least sum of squared distances between targets and moved sources: Kabsch's problem, solved
-/// with quaternions, so that a reflection is never an answer (B. Horn, "Closed-form solution of absolute orientation
-/// using unit quaternions", 1987).
-///
-/// `pairs`   PointPairs, all of the same weight: a std::vector, a std::array or the like
-///
-/// Statuses: too_few_pairs (fewer than three), invalid_keypoint (a coordinate is not finite), no_pose (all points on a
-/// line, or squares outside of float's range). `pose` is all zeros then. The same bits on every machine, for pairs in
-/// the same order. O(pairs); allocates nothing.
-template <class Pairs>
-[[nodiscard]] Status fit_pose(const Pairs& pairs, Pose& pose) noexcept {
-  pose = Pose{};
-  const Status usable = detail::check_pairs(pairs);
-  return usable == Status::ok ? detail::align(pairs, pose) : usable;
+/// estimate_pose() for options and pairs that were checked.
+[[nodiscard]] inline Status find_pose(const PairsView& pairs, const RansacOptions& options, Pose& pose,
+                                      std::vector<std::uint32_t>& inliers) {
+  const Consensus consensus{pairs, options.inlier_distance};
+  Samples samples(options.seed, pairs.size());
+  std::size_t most = 0;
+  for (std::uint32_t iteration = 0; iteration < options.iterations; ++iteration) {
+    const auto index = samples.draw();
+    const std::array<PointPair, 3> sample{pairs[index[0]], pairs[index[1]], pairs[index[2]]};
+    Pose candidate;
+    if (!has_similar_edges(sample, options.edge_similarity)) continue;
+    if (align(PairsView(sample), candidate) != Status::ok) continue;
+    const std::size_t agreeing = consensus.count(candidate);
+    if (agreeing <= most) continue;
+    most = agreeing;
+    pose = candidate;
+  }
+  if (most < 3) {
+    pose = Pose{};
+    return Status::no_pose;
+  }
+  consensus.find(pose, inliers);
+  consensus.refine(pose, inliers);
+  return Status::ok;
 }
+
+}  // namespace detail
 
 /// The rigid motion that most of the pairs agree on, others being wrong: RANSAC (Fischler and Bolles 1981) over samples
 /// of three whose edges have similar lengths, then a least-squares fit to the inliers, repeated while their number
@@ -6727,30 +6801,10 @@ template <class Pairs>
                                    std::vector<std::uint32_t>& inliers) {
   pose = Pose{};
   inliers.clear();
+  const detail::PairsView view(pairs);
   Status usable = check(options);
-  if (usable == Status::ok) usable = detail::check_pairs(pairs);
-  if (usable != Status::ok) return usable;
-
-  const detail::Consensus<Pairs> consensus{pairs, options.inlier_distance};
-  detail::Samples samples(options.seed, pairs.size());
-  Pose best{};
-  std::size_t most = 0;
-  for (std::uint32_t iteration = 0; iteration < options.iterations; ++iteration) {
-    const auto index = samples.draw();
-    const std::array<PointPair, 3> sample{pairs[index[0]], pairs[index[1]], pairs[index[2]]};
-    Pose candidate;
-    if (!detail::has_similar_edges(sample, options.edge_similarity)) continue;
-    if (detail::align(sample, candidate) != Status::ok) continue;
-    const std::size_t agreeing = consensus.count(candidate);
-    if (agreeing <= most) continue;
-    most = agreeing;
-    best = candidate;
-  }
-  if (most < 3) return Status::no_pose;
-  pose = best;
-  consensus.find(pose, inliers);
-  consensus.refine(pose, inliers);
-  return Status::ok;
+  if (usable == Status::ok) usable = detail::check_pairs(view);
+  return usable == Status::ok ? detail::find_pose(view, options, pose, inliers) : usable;
 }
 
 }  // namespace SHORTSHOT_ISA
@@ -7156,6 +7210,7 @@ class Recognizer {
   /// In ascending order of classes.
   [[nodiscard]] std::vector<detail::Vote> cast_votes(const FeatureRows& rows, const std::vector<Match>& matches) const {
     std::vector<detail::Vote> votes;
+    std::vector<std::size_t> places(class_count() + 1);  // where the next vote for each class goes
     votes.reserve(matches.size());
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (matches[i].row == no_row) continue;
@@ -7164,10 +7219,12 @@ class Recognizer {
       const Point center = detail::from_local(codeword.center, rows.keypoints[row].position, rows.frames[row]);
       if (!is_finite(center)) continue;  // farther away than floats reach
       votes.push_back({center, class_of(codeword.instance), codeword.instance});
+      ++places[votes.back().object_class + 1];
     }
-    std::stable_sort(votes.begin(), votes.end(),
-                     [](const detail::Vote& a, const detail::Vote& b) { return a.object_class < b.object_class; });
-    return votes;
+    for (std::size_t c = 1; c < places.size(); ++c) places[c] += places[c - 1];
+    std::vector<detail::Vote> sorted(votes.size());
+    for (const detail::Vote& vote : votes) sorted[places[vote.object_class]++] = vote;
+    return sorted;
   }
 
   [[nodiscard]] detail::VoteDensity density_for(const std::vector<detail::Vote>& votes,
@@ -7188,21 +7245,23 @@ class Recognizer {
   /// Hypotheses from the peak that each vote has climbed to, densest first; of equal ones, as the votes are ordered.
   void choose(const std::vector<detail::Vote>& votes, const std::vector<detail::Peak>& peaks,
               std::vector<Hypothesis>& out) const {
-    std::vector<std::size_t> order(peaks.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return peaks[a].density > peaks[b].density; });
-    for (const std::size_t i : order) {
-      if (out.size() == options_.most) break;
-      const std::uint32_t object_class = votes[i].object_class;
-      const Point& at = peaks[i].at;
-      const bool is_known = std::any_of(out.begin(), out.end(), [&](const Hypothesis& denser) {
-        return denser.object_class == object_class &&
-               squared_distance(denser.center, at) <= rounded(options_.bandwidth * options_.bandwidth);
-      });
-      if (is_known) continue;
+    std::vector<std::uint8_t> is_known(peaks.size());  // at a hypothesis, or near one of the same class
+    while (out.size() < options_.most) {
+      std::size_t densest = peaks.size();
+      for (std::size_t i = 0; i < peaks.size(); ++i) {
+        const bool denser = densest == peaks.size() || peaks[i].density > peaks[densest].density;
+        if (is_known[i] == 0 && denser) densest = i;
+      }
+      if (densest == peaks.size()) break;
+      const std::uint32_t object_class = votes[densest].object_class;
+      const Point& at = peaks[densest].at;
+      is_known[densest] = 1;
+      for (std::size_t i = 0; i < peaks.size(); ++i) {
+        const bool near = squared_distance(at, peaks[i].at) <= rounded(options_.bandwidth * options_.bandwidth);
+        if (near && votes[i].object_class == object_class) is_known[i] = 1;
+      }
       const detail::VoteDensity density = density_for(votes, object_class);
-      out.push_back({object_class, heaviest_instance(density, at), at, peaks[i].density});
+      out.push_back({object_class, heaviest_instance(density, at), at, peaks[densest].density});
     }
   }
 
@@ -7229,7 +7288,7 @@ class Recognizer {
 // FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
 // does once in 2^64 times. It is no protection from who means harm; load() believes no number because of it.
 
-#include <fstream>
+#include <cstdio>
 
 namespace shortshot {
 inline namespace SHORTSHOT_ISA {
@@ -7251,9 +7310,7 @@ class ModelWriter {
 
   template <class Unsigned>
   void number(Unsigned value) {
-    for (std::size_t k = 0; k < sizeof value; ++k) {
-      bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * k) & 0xFFu));
-    }
+    number(value, sizeof value);
   }
   void count(std::size_t value) { number(std::uint64_t{value}); }
   void real(float value) { number(math::bits_of(value)); }
@@ -7266,6 +7323,10 @@ class ModelWriter {
   }
 
  private:
+  [[gnu::noinline]] void number(std::uint64_t value, std::size_t bytes) {
+    for (std::size_t k = 0; k < bytes; ++k) bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * k) & 0xFFu));
+  }
+
   std::vector<std::uint8_t>& bytes_;
 };
 
@@ -7325,6 +7386,37 @@ class ModelReader {
   const std::uint8_t* at_;
   std::size_t left_;
   bool good_ = true;
+};
+
+/// The C library's: <fstream> takes more time to compile than all that would be used of it.
+class File {
+ public:
+  File(const std::string& path, const char* mode) noexcept : file_(std::fopen(path.c_str(), mode)) {}
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  ~File() { static_cast<void>(close()); }
+
+  [[nodiscard]] bool write(const std::vector<std::uint8_t>& bytes) noexcept {
+    return file_ != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
+  }
+  /// All that is left.
+  [[nodiscard]] bool read(std::vector<std::uint8_t>& bytes) {
+    if (file_ == nullptr) return false;
+    std::uint8_t block[4096];
+    while (const std::size_t count = std::fread(block, 1, sizeof block, file_)) {
+      bytes.insert(bytes.end(), block, block + count);
+    }
+    return std::ferror(file_) == 0;
+  }
+  /// Only then the last bytes are known to be written.
+  [[nodiscard]] bool close() noexcept {
+    const bool is_closed = file_ != nullptr && std::fclose(file_) == 0;
+    file_ = nullptr;
+    return is_closed;
+  }
+
+ private:
+  std::FILE* file_;
 };
 
 inline void write(ModelWriter& to, const RecognizerOptions& options, const Codebook& codebook) {
@@ -7428,18 +7520,15 @@ inline void write(ModelWriter& to, const RecognizerOptions& options, const Codeb
   std::vector<std::uint8_t> bytes;
   const Status status = save(recognizer, bytes);
   if (status != Status::ok) return status;
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  file.close();  // only then the last bytes are known to be written
-  return file ? Status::ok : Status::no_file;
+  detail::File file(path, "wb");
+  const bool is_written = file.write(bytes);
+  return file.close() && is_written ? Status::ok : Status::no_file;
 }
 
 [[nodiscard]] inline Status load(const std::string& path, std::string_view layout, Recognizer& out) {
-  std::ifstream file(path, std::ios::binary);
   std::vector<std::uint8_t> bytes;
-  char block[4096];
-  while (file.read(block, sizeof block) || file.gcount() > 0) bytes.insert(bytes.end(), block, block + file.gcount());
-  return file.eof() ? load(bytes.data(), bytes.size(), layout, out) : Status::no_file;
+  detail::File file(path, "rb");
+  return file.read(bytes) ? load(bytes.data(), bytes.size(), layout, out) : Status::no_file;
 }
 
 }  // namespace SHORTSHOT_ISA

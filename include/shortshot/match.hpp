@@ -189,17 +189,14 @@ inline void insert(Match* best, std::size_t k, const Match& match) noexcept {
   best[at] = match;
 }
 
-/// The nearest match of each row among those that the threads have seen.
-[[nodiscard]] inline std::vector<Match> nearest_of_all(const std::vector<std::vector<Match>>& seen) {
-  std::vector<Match> best = seen.front();
-  for (const std::vector<Match>& matches : seen) {
-    for (std::size_t i = 0; i < best.size(); ++i) {
-      const Match& match = matches[i];
-      const bool nearer = match.distance < best[i].distance;
-      if (nearer || (match.distance == best[i].distance && match.row < best[i].row)) best[i] = match;
-    }
+/// The nearest match of each of `count` rows, among those that all threads have seen, to where the first one's is.
+inline void merge(std::vector<Match>& seen, std::size_t count) noexcept {
+  for (std::size_t i = count; i < seen.size(); ++i) {
+    const Match& match = seen[i];
+    Match& best = seen[i % count];
+    const bool nearer = match.distance < best.distance;
+    if (nearer || (match.distance == best.distance && match.row < best.row)) best = match;
   }
-  return best;
 }
 
 }  // namespace detail
@@ -269,10 +266,10 @@ template <class Threads = unsigned>
   const Match none{no_row, detail::out_of_reach};
   std::vector<Match> of_source(source.count, none);
   std::vector<float> half_worst(detail::ComparedRows::whole_panels(source.count), 0.5f * detail::out_of_reach);
-  std::vector<std::vector<Match>> of_target(team, std::vector<Match>(target.count, none));  // what each thread has seen
+  std::vector<Match> of_target(team * target.count, none);  // what each thread has seen, one after the other
   const auto compare = [&](std::size_t thread, std::size_t first, std::size_t t,
                            const detail::PanelProducts& products) {
-    Match& nearest_source = of_target[thread][t];
+    Match& nearest_source = of_target[thread * target.count + t];
     const simd::F32 half_distance = simd::all(0.5f * nearest_source.distance);
     const auto limits = [&](std::size_t s) { return simd::max(simd::load(half_worst.data() + s), half_distance); };
     detail::for_candidates(from, first, *to.half_norm(t), products, limits, [&](std::size_t s) {
@@ -284,10 +281,10 @@ template <class Threads = unsigned>
     });
   };
   detail::for_products(executor, team, from, to, compare);
-  const std::vector<Match> sources = detail::nearest_of_all(of_target);
+  detail::merge(of_target, target.count);
   for (std::size_t s = 0; s < source.count; ++s) {
     const Match& match = of_source[s];
-    if (match.row == no_row || sources[match.row].row != s) continue;
+    if (match.row == no_row || of_target[match.row].row != s) continue;
     out.push_back({static_cast<std::uint32_t>(s), match.row, simd::root(match.distance)});
   }
   return Status::ok;

@@ -28,7 +28,7 @@ struct PanelProducts {
 };
 
 /// Puts rows side by side: value 0 of all of them, then value 1, and so on.
-inline void pack(const float* const (&rows)[panel_rows], std::size_t size, float* panel) noexcept {
+[[gnu::noinline]] inline void pack(const float* const (&rows)[panel_rows], std::size_t size, float* panel) noexcept {
   for (std::size_t i = 0; i < size; ++i) {
     for (std::size_t k = 0; k < panel_rows; k += simd::lanes) {
       simd::store(panel, simd::from_lanes([&](std::size_t lane) { return rows[k + lane][i]; }));
@@ -37,8 +37,8 @@ inline void pack(const float* const (&rows)[panel_rows], std::size_t size, float
   }
 }
 
-inline void multiply(const float* panel, const float* const (&rows)[tile_rows], std::size_t size,
-                     PanelProducts (&products)[tile_rows]) noexcept {
+[[gnu::noinline]] inline void multiply(const float* panel, const float* const (&rows)[tile_rows], std::size_t size,
+                                       PanelProducts (&products)[tile_rows]) noexcept {
   simd::F32 sums[tile_rows][panel_registers];
   const float* row[tile_rows];
   unroll<tile_rows>([&](auto r) {

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -210,6 +209,7 @@ class Recognizer {
   /// In ascending order of classes.
   [[nodiscard]] std::vector<detail::Vote> cast_votes(const FeatureRows& rows, const std::vector<Match>& matches) const {
     std::vector<detail::Vote> votes;
+    std::vector<std::size_t> places(class_count() + 1);  // where the next vote for each class goes
     votes.reserve(matches.size());
     for (std::size_t i = 0; i < matches.size(); ++i) {
       if (matches[i].row == no_row) continue;
@@ -218,10 +218,12 @@ class Recognizer {
       const Point center = detail::from_local(codeword.center, rows.keypoints[row].position, rows.frames[row]);
       if (!is_finite(center)) continue;  // farther away than floats reach
       votes.push_back({center, class_of(codeword.instance), codeword.instance});
+      ++places[votes.back().object_class + 1];
     }
-    std::stable_sort(votes.begin(), votes.end(),
-                     [](const detail::Vote& a, const detail::Vote& b) { return a.object_class < b.object_class; });
-    return votes;
+    for (std::size_t c = 1; c < places.size(); ++c) places[c] += places[c - 1];
+    std::vector<detail::Vote> sorted(votes.size());
+    for (const detail::Vote& vote : votes) sorted[places[vote.object_class]++] = vote;
+    return sorted;
   }
 
   [[nodiscard]] detail::VoteDensity density_for(const std::vector<detail::Vote>& votes,
@@ -242,21 +244,23 @@ class Recognizer {
   /// Hypotheses from the peak that each vote has climbed to, densest first; of equal ones, as the votes are ordered.
   void choose(const std::vector<detail::Vote>& votes, const std::vector<detail::Peak>& peaks,
               std::vector<Hypothesis>& out) const {
-    std::vector<std::size_t> order(peaks.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return peaks[a].density > peaks[b].density; });
-    for (const std::size_t i : order) {
-      if (out.size() == options_.most) break;
-      const std::uint32_t object_class = votes[i].object_class;
-      const Point& at = peaks[i].at;
-      const bool is_known = std::any_of(out.begin(), out.end(), [&](const Hypothesis& denser) {
-        return denser.object_class == object_class &&
-               squared_distance(denser.center, at) <= rounded(options_.bandwidth * options_.bandwidth);
-      });
-      if (is_known) continue;
+    std::vector<std::uint8_t> is_known(peaks.size());  // at a hypothesis, or near one of the same class
+    while (out.size() < options_.most) {
+      std::size_t densest = peaks.size();
+      for (std::size_t i = 0; i < peaks.size(); ++i) {
+        const bool denser = densest == peaks.size() || peaks[i].density > peaks[densest].density;
+        if (is_known[i] == 0 && denser) densest = i;
+      }
+      if (densest == peaks.size()) break;
+      const std::uint32_t object_class = votes[densest].object_class;
+      const Point& at = peaks[densest].at;
+      is_known[densest] = 1;
+      for (std::size_t i = 0; i < peaks.size(); ++i) {
+        const bool near = squared_distance(at, peaks[i].at) <= rounded(options_.bandwidth * options_.bandwidth);
+        if (near && votes[i].object_class == object_class) is_known[i] = 1;
+      }
       const detail::VoteDensity density = density_for(votes, object_class);
-      out.push_back({object_class, heaviest_instance(density, at), at, peaks[i].density});
+      out.push_back({object_class, heaviest_instance(density, at), at, peaks[densest].density});
     }
   }
 

@@ -52,6 +52,16 @@ template <int N>
   return above_p < q ? above_p : above_p + 1;
 }
 
+/// each() for the frames' 3x3 matrices; for others, which fewer wait for, a loop, which is compiled in less time.
+template <int N, int Count, class Function>
+SHORTSHOT_INLINE void repeat(Function f) noexcept {
+  if constexpr (N == 3) {
+    each<Count>(f);
+  } else {
+    for (int i = 0; i < Count; ++i) f(i);
+  }
+}
+
 /// One Jacobi rotation in the plane (p, q), q > p, in those lanes where it is worth while: it makes zero what couples
 /// the two axes. Entries are at most 2. Returns whether it was worth while anywhere.
 template <int N>
@@ -79,7 +89,7 @@ SHORTSHOT_INLINE bool rotate(Eigenvectors<N>& e, Couplings<N>& off, int p, int q
   coupling = select(turns, all(0.0f), coupling);
   F32* first = &off.between(p, other_axis<N>(0, p, q));
   F32* second = &off.between(q, other_axis<N>(0, p, q));
-  each<N - 2 + N>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+  repeat<N, N - 2 + N>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
     const F32 at_p = *first;
     const F32 at_q = *second;
     *first = c * at_p - s * at_q;
@@ -105,8 +115,8 @@ template <int N = 3>
   Eigenvectors<N> e;
   Couplings<N> off;
   const F32* entry = m.entry;
-  each<N>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
-    each<N>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+  repeat<N, N>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
+    repeat<N, N>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
       e.of[i][k] = all(i == k ? 1.0f : 0.0f);
       if (k >= i) (k == i ? e.of[i][N] : off.between(i, k)) = *entry++ * unit;
     });
@@ -120,23 +130,23 @@ template <int N = 3>
   }
 
   // Sort: exchange neighbors, from 0 and 1 to the last ones, again and again; at last 0 and 1.
-  each<(N - 1) * (N - 2) + 1>([&](auto step) SHORTSHOT_INLINE_LAMBDA {
+  repeat<N, (N - 1) * (N - 2) + 1>([&](auto step) SHORTSHOT_INLINE_LAMBDA {
     F32(&first)[N + 1] = e.of[step % (N - 1)];
     F32(&second)[N + 1] = e.of[step % (N - 1) + 1];
     const simd::Mask swap = second[N] < first[N];
     if (!any(swap)) return;
-    each<N + 1>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+    repeat<N, N + 1>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
       const F32 before = first[k];
       first[k] = select(swap, second[k], before);
       second[k] = select(swap, before, second[k]);
     });
   });
-  each<N>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
+  repeat<N, N>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
     F32(&v)[N + 1] = e.of[i];
     F32 squares = v[0] * v[0];
     unroll<N - 1>([&](auto k) { squares = squares + v[k + 1] * v[k + 1]; });
     const F32 length = simd::sqrt(squares);
-    each<N>([&](auto k) { v[k] = v[k] / length; });
+    repeat<N, N>([&](auto k) { v[k] = v[k] / length; });
     v[N] = v[N] * scale;
   });
   return e;
