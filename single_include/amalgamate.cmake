@@ -75,13 +75,20 @@ function(emit_file file)
   hide(text)
   set_property(GLOBAL APPEND_STRING PROPERTY output "\n")
   string(REPLACE "\n" ";" lines "${text}")
+  set(guard "")
   foreach(line IN LISTS lines)
     track_conditionals("${line}")
-    if(line MATCHES "^ *# *pragma once")
-      continue()
+    if(line MATCHES "^ *# *pragma once")  # a guard in its place: the single header may be included more than once
+      file(RELATIVE_PATH guard "${include_dir}" "${file}")
+      string(TOUPPER "SHORTSHOT_${guard}" guard)
+      string(MAKE_C_IDENTIFIER "${guard}" guard)
+      set(line "#ifndef ${guard}\n#define ${guard}")
     elseif(line MATCHES "^ *# *include \"(.*)\"")
       get_filename_component(included "${directory}/${CMAKE_MATCH_1}" ABSOLUTE)
-      emitted_before("${included}" done)
+      set(done FALSE)
+      if(NOT included MATCHES "macros_o(ff|n).hpp$")  # those come each time
+        emitted_before("${included}" done)
+      endif()
       if(NOT done)
         emit_file("${included}")
       endif()
@@ -94,6 +101,9 @@ function(emit_file file)
     endif()
     set_property(GLOBAL APPEND_STRING PROPERTY output "${line}\n")
   endforeach()
+  if(guard)
+    set_property(GLOBAL APPEND_STRING PROPERTY output "#endif  // ${guard}\n")
+  endif()
 endfunction()
 
 file(READ "${include_dir}/version.hpp" version_header)
@@ -109,5 +119,4 @@ file(WRITE "${OUTPUT}"
   "// SPDX-License-Identifier: BSD-3-Clause\n"
   "// shortshot ${version}, all of it in one file. Generated: do not edit; edit include/shortshot/*.hpp and regenerate\n"
   "// with: cmake -P single_include/amalgamate.cmake\n"
-  "#pragma once\n"
   "${output}")

@@ -1,30 +1,32 @@
 // shortshot: short color-shape descriptors (SSH, SCSH) of RGB-D point clouds on small CPUs, and their parents (SHOT,
 // CSHOT, B-SHOT).
 //
-// The umbrella. On bare metal it is the kernel: no heap, no exceptions, no operating system. Where there is an
-// operating system it adds what allocates: extract() for many key points, sampling, a grid with memory of its own.
-// Include <nanoflann.hpp> BEFORE it and NanoflannSearch is there as well; with <Eigen/Core>, view_eigen(), and on an
-// operating system matching, poses and the recognizer.
-#pragma once
+// The umbrella, in reading order. On bare metal it is the kernel: no heap, no exceptions, no operating system. Where
+// there is an operating system it adds what allocates: describe_cloud() and extract() for many key points, a grid with
+// memory of its own, matching, poses, the recognizer, files.
+//
+// Two things need another library, included before this header: <nanoflann.hpp> for NanoflannSearch, <Eigen/Core> for
+// view_eigen(). Whoever comes too late includes this header once more: what is new is added.
+//
+// Macros of other headers (min, near, Status, ...) do no harm here, whether they come before it or after it. In your own
+// code they do what they always do.
 
-#include "cloud/view_of.hpp"
-#include "cloud/view_point_cloud2.hpp"
+#include "macros_off.hpp"
+
 #include "kernel.hpp"
 
 #if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
+#include "batch/describe_cloud.hpp"
 #include "batch/estimate_normals.hpp"
 #include "batch/extract.hpp"
 #include "batch/keypoints.hpp"
 #include "batch/to_pcl.hpp"
 #include "descriptor/layout_text.hpp"
-#include "recognition/descriptor_rows.hpp"
-#include "search/grid_search.hpp"
-#if defined(EIGEN_WORLD_VERSION)
 #include "recognition/match.hpp"
 #include "recognition/pose.hpp"
 #include "recognition/recognize.hpp"
 #include "recognition/recognizer_model.hpp"
-#endif
+#include "search/grid_search.hpp"
 #endif
 
 #if defined(NANOFLANN_VERSION)
@@ -34,3 +36,5 @@
 #if defined(EIGEN_WORLD_VERSION)
 #include "cloud/view_eigen.hpp"
 #endif
+
+#include "macros_on.hpp"

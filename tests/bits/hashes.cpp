@@ -129,6 +129,52 @@ void print_all(const Input& input) {
   print_descriptors<Cshot<Shape, 7, 12>>(input, search, "cshot_odd");
 }
 
+/// Matches of a view's key points with those seen with another radius, the motion between them, and what it shows.
+void print_recognition(const Input& input) {
+  std::vector<KeyPoint> keypoints;
+  for (const std::uint32_t index : input.keypoints) keypoints.push_back(keypoint(input.cloud, index));
+  Features<Scsh336> view, other;
+  const GridSearch search(input.cloud, input.radius.value);
+  Hash hash;
+  const Status described[] = {extract(input.cloud, search, keypoints, input.radius, view),
+                              extract(input.cloud, search, keypoints, 0.9f * input.radius.value, other)};
+  hash.add(described, 2);
+  std::vector<Match> matches;
+  std::vector<Correspondence> correspondences;
+  const Status matched[] = {nearest(rows_of(view), rows_of(other), 3, matches),
+                            reciprocal_correspondences(rows_of(view), rows_of(other), correspondences)};
+  hash.add(matched, 2);
+  hash.add(matches.data(), matches.size());
+  hash.add(correspondences.data(), correspondences.size());
+  hash.print(input.name, "matches");
+
+  std::vector<PointPair> pairs;
+  for (const Correspondence& c : correspondences) {
+    const Point& p = keypoints[c.target].position;
+    const float y = rounded(0.8f * p.x) - rounded(0.6f * p.z);
+    const float z = rounded(0.6f * p.x) + rounded(0.8f * p.z);
+    pairs.push_back({keypoints[c.source].position, {1.0f - p.y, y, z}});
+  }
+  Pose fitted, estimated;
+  std::vector<std::uint32_t> inliers;
+  const Status posed[] = {fit_pose(pairs, fitted), estimate_pose(pairs, RansacOptions{}, estimated, inliers)};
+  Hash pose;
+  pose.add(posed, 2);
+  pose.add(&fitted, 1);
+  pose.add(&estimated, 1);
+  pose.add(inliers.data(), inliers.size());
+  pose.print(input.name, "pose");
+
+  Recognizer recognizer(RecognizerOptions{0.05f, 2, 8});
+  std::vector<Hypothesis> objects;
+  const Status recognized[] = {recognizer.train(view, keypoints, {0.0f, 0.0f, 1.0f}, "scene", "a"),
+                               recognizer.recognize(other, keypoints, objects)};
+  Hash recognition;
+  recognition.add(recognized, 2);
+  recognition.add(objects.data(), objects.size());
+  recognition.print(input.name, "recognition");
+}
+
 void print_scene() {
   const shortshot_bench::RgbdCloud scene = shortshot_bench::make_tabletop({1, 160, 120, 1.0f});
   Input input{"scene", view_xyz_rgb(scene.xyz.data(), scene.rgb.data(), scene.size()), 0.06f, {}, {}};
@@ -144,6 +190,7 @@ void print_scene() {
   const std::vector<SurfaceNormal> normals = print_normals(input.name, input.cloud, search, 0.03f);
   input.cloud = with_normals(input.cloud, normals.data());
   print_all(input);
+  print_recognition(input);
 }
 
 void print_case(const std::string& folder) {

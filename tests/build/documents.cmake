@@ -29,8 +29,8 @@ build_test(readme.firmware.links "${CMAKE_CXX_COMPILER}" -std=c++17 "${here}/fir
 build_test(readme.firmware.runs "${there}/readme/firmware")
 build_test(readme.parents "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" -fsyntax-only
   "${there}/readme/parents.cpp")
-build_test(readme.recognition "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}"
-  -isystem "${eigen_dir}" -fsyntax-only "${there}/readme/recognition.cpp")
+build_test(readme.recognition "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" -O2
+  -c "${there}/readme/recognition.cpp" -o "${there}/readme/recognition.o")
 depends(readme.parents readme)
 depends(readme.recognition readme)
 depends(readme.quick_start readme)

@@ -89,8 +89,6 @@ std::size_t describe_all(const shortshot::CloudView& cloud) {
   return rows;
 }
 
-#if defined(__cpp_exceptions)
-/// Everything that needs Eigen.
 std::size_t recognize(const shortshot::CloudView& cloud) {
   std::vector<shortshot::KeyPoint> keypoints;
   shortshot::Features<shortshot::Ssh32> features;
@@ -125,7 +123,6 @@ std::size_t recognize(const shortshot::CloudView& cloud) {
   if (shortshot::activation_shares(recognizer, features, shares) != shortshot::Status::ok) return 0;
   return hypotheses.size() + shares.classes.size() + inliers.size();
 }
-#endif
 
 }  // namespace
 
@@ -138,7 +135,8 @@ int main() {
   if (shortshot::view_point_cloud2(message, view) == shortshot::Status::ok) rows += describe_all(view);
 #if defined(__cpp_exceptions)
   const Eigen::Matrix3Xf matrix = Eigen::Matrix3Xf::Zero(3, 10);
-  rows += describe_all(shortshot::view_eigen(matrix)) + recognize(shortshot::view_eigen(matrix));
+  rows += describe_all(shortshot::view_eigen(matrix));
 #endif
+  rows += recognize(shortshot::view_of(points));
   return rows > 0 ? 0 : 1;
 }

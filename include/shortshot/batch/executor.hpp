@@ -24,17 +24,22 @@ class StartedThreads {
 
   template <class Work>
   void run(const Work& work) const {
+    run_erased([](const void* erased) { (*static_cast<const Work*>(erased))(); }, &work);
+  }
+
+ private:
+  /// Compiled once for all work: std::thread and a vector of them take a compiler their time.
+  void run_erased(void (*call)(const void* work), const void* work) const {
     struct Threads : std::vector<std::thread> {
       ~Threads() {  // also when one more thread cannot be started: those that run finish the work
         for (std::thread& thread : *this) thread.join();
       }
     } others;
     others.reserve(threads_ - 1);
-    for (std::size_t t = 1; t < threads_; ++t) others.emplace_back(work);
-    work();
+    for (std::size_t t = 1; t < threads_; ++t) others.emplace_back(call, work);
+    call(work);
   }
 
- private:
   std::size_t threads_;
 };
 

@@ -2,7 +2,6 @@
 // knows descriptors only at run time. Hosted only: allocates.
 #pragma once
 
-#include <numeric>
 #include <string>
 #include <type_traits>
 
@@ -18,49 +17,57 @@ struct HasName : std::false_type {};
 template <class Policy>
 struct HasName<Policy, std::void_t<decltype(std::string(Policy::name))>> : std::true_type {};
 
+// Called, not inlined: text is put together from many pieces, and a compiler would take its time for each.
+[[gnu::noinline]] inline void add(std::string& text, const char* more) { text += more; }
+[[gnu::noinline]] inline void add(std::string& text, int number) { text += std::to_string(number); }
+template <class... Pieces>
+void add_all(std::string& text, Pieces... pieces) {
+  (add(text, pieces), ...);
+}
+
 template <class Policy>
-[[nodiscard]] std::string name_of() {
+[[nodiscard]] const char* name_of() noexcept {
   static_assert(HasName<Policy>::value,
                 "layout_of<D>() supports policies with `static constexpr const char* name`, which must tell them from "
                 "all others");
   return Policy::name;
 }
 
+[[nodiscard]] constexpr int greatest_common_divisor(int a, int b) noexcept {
+  return b == 0 ? a : greatest_common_divisor(b, a % b);
+}
+
 /// What a radius scale's name leaves open.
 template <class Scale>
 struct ScaleParameters {
-  [[nodiscard]] static std::string text() { return {}; }
+  static void add_to(std::string&) {}
 };
 template <int Numerator, int Denominator>
 struct ScaleParameters<LogRadius<Numerator, Denominator>> {
-  [[nodiscard]] static std::string text() {
-    constexpr int common = std::gcd(Numerator, Denominator);
-    return " from " + std::to_string(Numerator / common) + '/' + std::to_string(Denominator / common);
+  static void add_to(std::string& text) {
+    constexpr int common = greatest_common_divisor(Numerator, Denominator);
+    add_all(text, " from ", Numerator / common, "/", Denominator / common);
   }
 };
 
-template <class Signal>
-[[nodiscard]] std::string signal_text() {
-  std::string text = name_of<Signal>();
-  if constexpr (Signal::has_histogram) text += ' ' + std::to_string(Signal::bins) + " bins";
-  if constexpr (!std::is_void<typename Signal::Rule>::value) text += " (" + name_of<typename Signal::Rule>() + ')';
-  return text;
-}
-
 template <class Part>
-[[nodiscard]] std::string part_text() {
+void add_part(std::string& text) {
+  using Signal = typename Part::Signal;
   using Grid = typename Part::Grid;
   using Scale = typename Part::Scale;
-  return signal_text<typename Part::Signal>() + ' ' + std::to_string(Grid::radial) + 'x' +
-         std::to_string(Grid::elevation) + 'x' + std::to_string(Grid::azimuth) + ' ' + name_of<Scale>() +
-         ScaleParameters<Scale>::text();
+  add(text, name_of<Signal>());
+  if constexpr (Signal::has_histogram) add_all(text, " ", Signal::bins, " bins");
+  if constexpr (!std::is_void<typename Signal::Rule>::value) add_all(text, " (", name_of<typename Signal::Rule>(), ")");
+  add_all(text, " ", Grid::radial, "x", Grid::elevation, "x", Grid::azimuth, " ", name_of<Scale>());
+  ScaleParameters<Scale>::add_to(text);
 }
 
 template <class Voting, class... Parts>
 [[nodiscard]] std::string layout_text(const Descriptor<Voting, Parts...>*) {
-  std::string text = name_of<Voting>() + ", " + name_of<typename Descriptor<Voting, Parts...>::Cells>();
+  std::string text;
+  add_all(text, name_of<Voting>(), ", ", name_of<typename Descriptor<Voting, Parts...>::Cells>());
   const char* separator = ": ";
-  ((text += separator + part_text<Parts>(), separator = " | "), ...);
+  ((add(text, separator), add_part<Parts>(text), separator = " | "), ...);
   return text;
 }
 

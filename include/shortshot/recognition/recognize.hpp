@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -59,6 +58,7 @@ template <class Threads>
                                                   const std::vector<Match>& matches) {
   const auto& codewords = RecognizerAccess::codebook(recognizer).codewords;
   std::vector<Vote> votes;
+  std::vector<std::size_t> places(recognizer.class_count() + 1);  // where the next vote for each class goes
   votes.reserve(matches.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
     if (matches[i].row == no_row) continue;
@@ -67,10 +67,12 @@ template <class Threads>
     const Point center = from_local(codeword.center, rows.keypoints[row].position, rows.frames[row]);
     if (!is_finite(center)) continue;  // farther away than floats reach
     votes.push_back({center, recognizer.class_of(codeword.instance), codeword.instance});
+    ++places[votes.back().object_class + 1];
   }
-  std::stable_sort(votes.begin(), votes.end(),
-                   [](const Vote& a, const Vote& b) { return a.object_class < b.object_class; });
-  return votes;
+  for (std::size_t c = 1; c < places.size(); ++c) places[c] += places[c - 1];
+  std::vector<Vote> sorted(votes.size());
+  for (const Vote& vote : votes) sorted[places[vote.object_class]++] = vote;
+  return sorted;
 }
 
 [[nodiscard]] inline VoteDensity density_for(const Recognizer& recognizer, const std::vector<Vote>& votes,
@@ -93,21 +95,23 @@ template <class Threads>
 inline void choose(const Recognizer& recognizer, const std::vector<Vote>& votes, const std::vector<Peak>& peaks,
                    std::vector<Hypothesis>& out) {
   const float bandwidth = recognizer.options().bandwidth;
-  std::vector<std::size_t> order(peaks.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return peaks[a].density > peaks[b].density; });
-  for (const std::size_t i : order) {
-    if (out.size() == recognizer.options().most) break;
-    const std::uint32_t object_class = votes[i].object_class;
-    const Point& at = peaks[i].at;
-    const bool is_known = std::any_of(out.begin(), out.end(), [&](const Hypothesis& denser) {
-      return denser.object_class == object_class &&
-             squared_distance(denser.center, at) <= unfused(bandwidth * bandwidth);
-    });
-    if (is_known) continue;
+  std::vector<std::uint8_t> is_known(peaks.size());  // at a hypothesis, or near one of the same class
+  while (out.size() < recognizer.options().most) {
+    std::size_t densest = peaks.size();
+    for (std::size_t i = 0; i < peaks.size(); ++i) {
+      const bool denser = densest == peaks.size() || peaks[i].density > peaks[densest].density;
+      if (is_known[i] == 0 && denser) densest = i;
+    }
+    if (densest == peaks.size()) break;
+    const std::uint32_t object_class = votes[densest].object_class;
+    const Point& at = peaks[densest].at;
+    is_known[densest] = 1;
+    for (std::size_t i = 0; i < peaks.size(); ++i) {
+      const bool close = squared_distance(at, peaks[i].at) <= unfused(bandwidth * bandwidth);
+      if (close && votes[i].object_class == object_class) is_known[i] = 1;
+    }
     const VoteDensity density = density_for(recognizer, votes, object_class);
-    out.push_back({object_class, heaviest_instance(recognizer, density, at), at, peaks[i].density});
+    out.push_back({object_class, heaviest_instance(recognizer, density, at), at, peaks[densest].density});
   }
 }
 

@@ -1,5 +1,4 @@
 // shortshot/recognition/recognizer_model.hpp: a trained recognizer as bytes, or in a file. Hosted only: allocates.
-// Needs Eigen (match.hpp).
 //
 // All numbers are little-endian, floats by their bits, counts and lengths 8 bytes:
 //
@@ -18,8 +17,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,7 +26,6 @@
 
 #include "../base/math.hpp"
 #include "../cloud/cloud.hpp"
-#include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../status.hpp"
 #include "codebook.hpp"
@@ -53,9 +51,7 @@ class ModelWriter {
 
   template <class Unsigned>
   void number(Unsigned value) {
-    for (std::size_t k = 0; k < sizeof value; ++k) {
-      bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * k) & 0xFFu));
-    }
+    number(value, sizeof value);
   }
   void count(std::size_t value) { number(std::uint64_t{value}); }
   void real(float value) { number(math::bits_of(value)); }
@@ -68,6 +64,10 @@ class ModelWriter {
   }
 
  private:
+  [[gnu::noinline]] void number(std::uint64_t value, std::size_t bytes) {
+    for (std::size_t k = 0; k < bytes; ++k) bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * k) & 0xFFu));
+  }
+
   std::vector<std::uint8_t>& bytes_;
 };
 
@@ -127,6 +127,37 @@ class ModelReader {
   const std::uint8_t* at_;
   std::size_t left_;
   bool good_ = true;
+};
+
+/// The C library's: <fstream> takes more time to compile than all that would be used of it.
+class File {
+ public:
+  File(const std::string& path, const char* mode) noexcept : file_(std::fopen(path.c_str(), mode)) {}
+  File(const File&) = delete;
+  File& operator=(const File&) = delete;
+  ~File() { static_cast<void>(close()); }
+
+  [[nodiscard]] bool write(const std::vector<std::uint8_t>& bytes) noexcept {
+    return file_ != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
+  }
+  /// All that is left.
+  [[nodiscard]] bool read(std::vector<std::uint8_t>& bytes) {
+    if (file_ == nullptr) return false;
+    std::uint8_t block[4096];
+    while (const std::size_t count = std::fread(block, 1, sizeof block, file_)) {
+      bytes.insert(bytes.end(), block, block + count);
+    }
+    return std::ferror(file_) == 0;
+  }
+  /// Only then the last bytes are known to be written.
+  [[nodiscard]] bool close() noexcept {
+    const bool is_closed = file_ != nullptr && std::fclose(file_) == 0;
+    file_ = nullptr;
+    return is_closed;
+  }
+
+ private:
+  std::FILE* file_;
 };
 
 inline void write(ModelWriter& to, const RecognizerOptions& options, const Codebook& codebook) {
@@ -237,18 +268,15 @@ inline namespace SHORTSHOT_CODE {
   std::vector<std::uint8_t> bytes;
   const Status status = save(recognizer, bytes);
   if (status != Status::ok) return status;
-  std::ofstream file(path, std::ios::binary);
-  file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  file.close();  // only then the last bytes are known to be written
-  return file ? Status::ok : Status::no_file;
+  detail::File file(path, "wb");
+  const bool is_written = file.write(bytes);
+  return file.close() && is_written ? Status::ok : Status::no_file;
 }
 
 [[nodiscard]] inline Status load(const std::string& path, std::string_view layout, Recognizer& out) {
-  std::ifstream file(path, std::ios::binary);
   std::vector<std::uint8_t> bytes;
-  char block[4096];
-  while (file.read(block, sizeof block) || file.gcount() > 0) bytes.insert(bytes.end(), block, block + file.gcount());
-  return file.eof() ? load(bytes.data(), bytes.size(), layout, out) : Status::no_file;
+  detail::File file(path, "rb");
+  return file.read(bytes) ? load(bytes.data(), bytes.size(), layout, out) : Status::no_file;
 }
 
 }  // namespace SHORTSHOT_CODE

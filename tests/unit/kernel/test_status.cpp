@@ -115,7 +115,8 @@ TEST_CASE("status: an empty cloud, a cloud of nothing finite, and no memory at a
   TestCloud nothing;
   for (int k = 0; k < 10; ++k) nothing.add(not_a_number, infinity, 0.0f);
   CHECK(describe_into_garbage<D>(nothing.view(), std::size_t{0}) == Status::invalid_keypoint);
-  CHECK(describe_into_garbage<D>(nothing.view(), ss::KeyPoint({0.0f, 0.0f, 0.0f}, {1, 2, 3})) == Status::too_few_neighbors);
+  CHECK(describe_into_garbage<D>(nothing.view(), ss::KeyPoint({0.0f, 0.0f, 0.0f}, {1, 2, 3})) ==
+        Status::too_few_neighbors);
   CHECK(ss::GridSearch(nothing.view(), radius).status() == Status::empty_cloud);
   std::vector<std::uint32_t> keypoints{7};
   CHECK(ss::sample_uniform(nothing.view(), radius, keypoints) == Status::empty_cloud);

@@ -6,45 +6,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
+#include "descriptor_rows.hpp"
 #include "fixtures.hpp"
-#include "thread_pool.hpp"
 
 namespace {
 
 using namespace unit;
 using ss::Status;
-
-struct Rows {
-  std::size_t size;
-  std::vector<float> values;
-  std::vector<Status> status;  // none, or one per row
-
-  [[nodiscard]] std::size_t count() const { return values.size() / size; }
-  [[nodiscard]] bool is_ok(std::size_t row) const { return status.empty() || status[row] == Status::ok; }
-  [[nodiscard]] ss::DescriptorRows view() const {
-    return {values.data(), count(), size, status.empty() ? nullptr : status.data()};
-  }
-};
-
-/// Multiples of 1/16 from -2 to 2: squared distances of up to 2000 of them are exact in float, and often the same.
-Rows dyadic_rows(std::uint32_t seed, std::size_t count, std::size_t size) {
-  Random random(seed);
-  Rows rows{size, {}, {}};
-  for (std::size_t i = 0; i < count * size; ++i) rows.values.push_back(random.dyadic(-2.0f, 2.0f, 4));
-  return rows;
-}
-
-float distance(const Rows& a, std::size_t i, const Rows& b, std::size_t k) {
-  double sum = 0.0;
-  for (std::size_t v = 0; v < a.size; ++v) {
-    const double d = static_cast<double>(a.values[i * a.size + v]) - static_cast<double>(b.values[k * b.size + v]);
-    sum += d * d;
-  }
-  return static_cast<float>(std::sqrt(sum));
-}
 
 /// The definition: all distances, in stable order.
 std::vector<ss::Match> all_by_distance(const Rows& queries, std::size_t query, const Rows& database) {
@@ -56,14 +26,6 @@ std::vector<ss::Match> all_by_distance(const Rows& queries, std::size_t query, c
   std::stable_sort(all.begin(), all.end(),
                    [](const ss::Match& a, const ss::Match& b) { return a.distance < b.distance; });
   return all;
-}
-
-template <class Threads = unsigned>
-std::vector<ss::Match> nearest(const Rows& queries, const Rows& database, std::size_t k, Threads&& threads = 1u) {
-  std::vector<ss::Match> out(3);
-  REQUIRE(ss::nearest(queries.view(), database.view(), k, out, threads) == Status::ok);
-  REQUIRE(out.size() == queries.count() * k);
-  return out;
 }
 
 /// For rows whose distances are exact.
@@ -79,17 +41,6 @@ bool is_as_defined(const std::vector<ss::Match>& out, const Rows& queries, const
   return true;
 }
 
-bool same(const std::vector<ss::Match>& a, const std::vector<ss::Match>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const ss::Match& x, const ss::Match& y) { return x.row == y.row && x.distance == y.distance; });
-}
-
-bool same(const std::vector<ss::MatchedPair>& a, const std::vector<ss::MatchedPair>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const ss::MatchedPair& x, const ss::MatchedPair& y) {
-    return x.source == y.source && x.target == y.target && x.distance == y.distance;
-  });
-}
-
 /// The definition: pairs that are nearest in both directions.
 std::vector<ss::MatchedPair> mutual(const Rows& source, const Rows& target) {
   std::vector<ss::MatchedPair> pairs;
@@ -99,13 +50,6 @@ std::vector<ss::MatchedPair> mutual(const Rows& source, const Rows& target) {
     pairs.push_back({static_cast<std::uint32_t>(s), there[0].row, there[0].distance});
   }
   return pairs;
-}
-
-template <class Threads = unsigned>
-std::vector<ss::MatchedPair> reciprocal(const Rows& source, const Rows& target, Threads&& threads = 1u) {
-  std::vector<ss::MatchedPair> out(3);
-  REQUIRE(ss::reciprocal_correspondences(source.view(), target.view(), out, threads) == Status::ok);
-  return out;
 }
 
 struct Sizes {
@@ -142,6 +86,20 @@ TEST_CASE("match: distances of rows that are close, but far from the origin, do 
   CHECK(is_as_defined(out, queries, database, 3));
   CHECK(out[0].row == 299);
   CHECK(out[0].distance == 1.0f / 1024.0f);
+}
+
+TEST_CASE("match: of rows whose squares round, none is nearer by more than that rounding") {
+  const Rows queries = random_rows(18, 140, 336);
+  const Rows database = random_rows(19, 230, 336);
+  const std::vector<ss::Match> out = nearest(queries, database, 2);
+  for (std::size_t query = 0; query < queries.count(); ++query) {
+    const std::vector<ss::Match> expected = all_by_distance(queries, query, database);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const ss::Match& match = out[2 * query + i];
+      REQUIRE(std::fabs(match.distance - expected[i].distance) < 1e-5f);
+      REQUIRE(std::fabs(match.distance - distance(queries, query, database, match.row)) < 1e-5f);
+    }
+  }
 }
 
 TEST_CASE("match: of rows that are as near the first ones win, however many there are") {
@@ -189,9 +147,11 @@ TEST_CASE("match: rows whose status is not ok, or whose values are no numbers, m
   unusable_queries.values[12] = not_a_number;  // row 1
   unusable_queries.values[24] = 1e19f;         // row 2: squared distances could overflow
   unusable_database.values[12] = not_a_number;
-  unusable_database.values[36] = -infinity;  // row 3
-  for (const std::size_t row : {1u, 2u}) queries.status[row] = Status::bad_frame;
-  for (const std::size_t row : {1u, 3u}) database.status[row] = Status::bad_frame;
+  unusable_database.values[36] = -infinity;                                          // row 3
+  for (std::size_t v = 0; v < 12; ++v) unusable_queries.values[4 * 12 + v] = 1e30f;  // products: infinity
+  for (std::size_t v = 0; v < 12; ++v) unusable_database.values[5 * 12 + v] = 3e38f;
+  for (const std::size_t row : {1u, 2u, 4u}) queries.status[row] = Status::bad_frame;
+  for (const std::size_t row : {1u, 3u, 5u}) database.status[row] = Status::bad_frame;
   CHECK(is_as_defined(nearest(unusable_queries, unusable_database, 2), queries, database, 2));
   CHECK(same(reciprocal(unusable_queries, unusable_database), mutual(queries, database)));
 
@@ -231,28 +191,4 @@ TEST_CASE("match: rows that do not fit each other, and options out of range, are
     CHECK(ss::nearest(good, good, k, matches) == Status::bad_option);
     CHECK(matches.empty());
   }
-}
-
-TEST_CASE("match: the number of threads changes no bit") {
-  Random random(12);
-  Rows source{31, {}, {}};
-  Rows target{31, {}, {}};
-  for (int i = 0; i < 700 * 31; ++i) source.values.push_back(random.between(0.0f, 1.0f));
-  for (const float value : source.values) target.values.push_back(value + random.between(-0.5f, 0.5f));
-  target.values.resize(target.values.size() - 31 * std::size_t{41});
-  for (int copy = 0; copy < 100; ++copy) {  // ties that different threads see
-    source.values.insert(source.values.end(), source.values.begin(), source.values.begin() + 31 * 4);
-  }
-  const std::vector<ss::Match> matches = nearest(source, target, 3);
-  const std::vector<ss::MatchedPair> pairs = reciprocal(source, target);
-  CHECK(pairs.size() > 100);
-  CHECK(pairs.size() < 600);
-  CHECK(pairs[0].source == 0);  // not one of its copies
-  for (const unsigned threads : {2u, 3u, 50u}) {
-    CHECK(same(nearest(source, target, 3, threads), matches));
-    CHECK(same(reciprocal(source, target, threads), pairs));
-  }
-  ThreadPool pool(3);
-  CHECK(same(nearest(source, target, 3, pool), matches));
-  CHECK(same(reciprocal(source, target, pool), pairs));
 }

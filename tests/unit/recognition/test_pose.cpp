@@ -52,6 +52,23 @@ TEST_CASE("pose: exact motions are found again, by three pairs or more") {
   }
 }
 
+TEST_CASE("pose: no turn, and half turns, whose quaternions have no real part") {
+  Random random(9);
+  const float axes[][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.6f, 0.8f, 0}, {0, -0.6f, 0.8f}, {0.48f, 0.6f, -0.64f}};
+  ss::Pose expected{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0.1f, -0.2f, 0.3f}};
+  ss::Pose pose = garbage_pose();
+  REQUIRE(ss::fit_pose(moved(random, expected, 30), pose) == Status::ok);
+  CHECK(largest_difference(pose, expected) < 2e-6f);
+  for (const auto& axis : axes) {
+    for (int k = 0; k < 9; ++k) {
+      expected.rotation[k] = 2.0f * axis[k / 3] * axis[k % 3] - (k / 3 == k % 3 ? 1.0f : 0.0f);
+    }
+    REQUIRE(ss::fit_pose(moved(random, expected, 30), pose) == Status::ok);
+    CHECK(is_rotation(pose));
+    CHECK(largest_difference(pose, expected) < 3e-6f);
+  }
+}
+
 TEST_CASE("pose: of noisy pairs it is the motion with the least squares") {
   Random random(2);
   const ss::Pose expected = random_pose(random);

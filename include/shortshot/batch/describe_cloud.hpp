@@ -1,0 +1,57 @@
+// shortshot/batch/describe_cloud.hpp: a whole cloud in one call: key points, search, frames, descriptors. Hosted only:
+// allocates, starts threads.
+#pragma once
+
+#include <vector>
+
+#include "../base/math.hpp"
+#include "../cloud/cloud.hpp"
+#include "../cloud/keypoint.hpp"
+#include "../config.hpp"
+#include "../frame/viewpoint.hpp"
+#include "../kernel/support.hpp"
+#include "../search/grid_search.hpp"
+#include "../search/radius.hpp"
+#include "../status.hpp"
+#include "extractor.hpp"
+#include "features.hpp"
+#include "keypoints.hpp"
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// How describe_cloud() describes. Defaults for objects on a table, seen by a depth camera at one meter.
+struct CloudOptions {
+  float radius = 0.04f;       ///< of the support, in meters
+  float leaf = 0.02f;         ///< one key point in each occupied voxel of that many meters: its points' centroid
+  float frame_radius = 0.0f;  ///< of the local reference frame, in meters; 0: the support's
+  Viewpoint viewpoint;        ///< turns the frames' z; Viewpoint::towards({0, 0, 0}): a camera at the origin
+  unsigned threads = 1;       ///< that share the work
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// Describes a whole cloud: key points by sample_centroids(), neighbors by a GridSearch, rows by an Extractor. `out`
+/// has the key points, too.
+///
+/// Statuses: empty_cloud, bad_view, bad_leaf, bad_radius, bad_viewpoint, missing_colors, missing_normals (for SHOT and
+/// CSHOT: estimate_normals() first), missing_intensities; `out` is empty, or all its rows have that status. Each row
+/// has a status of its own. Allocates what those three do, anew in every call; for cloud after cloud take them one by
+/// one.
+template <class D>
+[[nodiscard]] Status describe_cloud(const CloudView& cloud, const CloudOptions& options, Features<D>& out) {
+  detail::clear_rows(out, 0, Status::ok);
+  Support support = options.radius;
+  if (options.frame_radius != 0.0f) support.frame_radius = Radius(options.frame_radius);
+  support.viewpoint = options.viewpoint;
+  std::vector<KeyPoint> keypoints;
+  Status status = validate(support.radius);
+  if (status == Status::ok) status = sample_centroids(cloud, options.leaf, keypoints);
+  if (status != Status::ok) return status;
+  const GridSearch search(cloud, options.radius);
+  return Extractor<D>().extract(cloud, search, keypoints, support, out, options.threads);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
