@@ -37,10 +37,11 @@ enum class [[nodiscard]] Status : std::uint8_t {
   other_descriptor,    ///< descriptors of another layout than the model was trained with
   damaged_model,       ///< the model is truncated, or its checksum or contents are wrong
   no_file,             ///< a file cannot be read or written
+  unsure_frame,        ///< left out by keep_best_frames(): others have surer frames
 };
 // clang-format on
 
-inline constexpr int status_count = static_cast<int>(Status::no_file) + 1;
+inline constexpr int status_count = static_cast<int>(Status::unsure_frame) + 1;
 
 inline namespace SHORTSHOT_ISA {
 
@@ -73,6 +74,7 @@ inline namespace SHORTSHOT_ISA {
     case Status::other_descriptor: return "the model was trained with another descriptor";
     case Status::damaged_model: return "the model is damaged";
     case Status::no_file: return "the file cannot be read or written";
+    case Status::unsure_frame: return "other key points have surer frames";
   }
   return "unknown status";
 }

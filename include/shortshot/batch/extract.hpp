@@ -44,10 +44,11 @@ template <class D, class Color, class Search>
   std::memset(values, 0, D::size_bytes);
   if constexpr (D::needs_colors) {
     const StoredColors<Color> colors{out.scratch.lab.data(), out.scratch.to_lab(key.color)};
-    return describe_gathered<D, default_chunk_size>(cloud, n, colors, key.position, support, out.frames[row], values);
+    return describe_gathered<D, default_chunk_size>(cloud, n, colors, key.position, support, out.frames[row], values,
+                                                    out.frame_confidence[row]);
   } else {
     return describe_gathered<D, default_chunk_size>(cloud, n, NoColors{}, key.position, support, out.frames[row],
-                                                    values);
+                                                    values, out.frame_confidence[row]);
   }
 }
 
@@ -72,6 +73,7 @@ template <class D, class Color, class Search, class KeyAt, class Threads>
   out.status.assign(count, usable);
   out.neighbors.assign(count, 0);
   out.frames.assign(count, Frame{});
+  out.frame_confidence.assign(count, FrameConfidence{});
   out.values.resize(count * row_size);
   if (usable != Status::ok) {
     std::fill(out.values.begin(), out.values.end(), 0.0f);
@@ -97,8 +99,7 @@ template <class D, class Color, class Search, class KeyAt, class Threads>
       status = Status::bad_keypoint;
       if (key_at(row, key)) status = extract_row(cloud, search, key, support, scratch.workspaces[thread], out, row);
       if (status == Status::ok) continue;
-      out.frames[row] = Frame{};
-      std::fill_n(out.values.data() + row * row_size, row_size, 0.0f);
+      clear_row(out, row);
     }
   });
   level(scratch, out.neighbors);

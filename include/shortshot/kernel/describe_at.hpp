@@ -73,16 +73,16 @@ template <class D>
   }
 }
 
-/// Frame and kernel; for `colors` see describe(). The other arguments were checked before.
-template <class D, std::uint32_t ChunkSize, class Neighbors, class Colors>
+/// Frame and kernel; for `colors` see describe(), for `confidence` frame_of(). The other arguments were checked before.
+template <class D, std::uint32_t ChunkSize, class Neighbors, class Colors, class... Confidence>
 [[nodiscard]] inline Status describe_gathered(const CloudView& cloud, const Neighbors& n, const Colors& colors,
-                                              const Point& center, const Support& support, Frame& frame,
-                                              float* out) noexcept {
+                                              const Point& center, const Support& support, Frame& frame, float* out,
+                                              Confidence&... confidence) noexcept {
   const Point* eye = support.viewpoint;
   const float towards[3] = {eye ? eye->x - center.x : 0.0f, eye ? eye->y - center.y : 0.0f,
                             eye ? eye->z - center.z : 0.0f};
   if (!math::is_finite(towards)) return Status::bad_viewpoint;  // so far away that the difference overflows
-  const Status status = frame_of(n, support.frame_radius, towards, frame);
+  const Status status = frame_of(n, support.frame_radius, towards, frame, confidence...);
   if (status != Status::ok) return status;
   return describe_checked<D, ChunkSize>(n, colors, normals_of<D>(cloud), frame, support.radius, out);
 }
