@@ -56,6 +56,8 @@ bool parse_options(int argc, const char* const* argv, PaperOptions& options, int
   }
   matching->add_option("--tolerance", options.tolerance_m, "meters by which a correct match and an inlier may miss")
       ->check(finite_and_positive);
+  matching->add_flag("--all-of-target", options.all_of_target,
+                     "--keep-frames leaves out key points of the source only");
   CLI::App* const merge = app.add_subcommand("merge", "bring the results of shards together, and report on them");
   merge->add_option("FOLDER", options.data, "folders of results")->required();
   merge->add_option("--out", options.out, "folder of all results")->required();
