@@ -113,9 +113,9 @@ template <class D, class Color>
   for (std::size_t row = 0; row < features.size(); ++row) {
     if (features.status[row] == Status::ok) rows.push_back(static_cast<std::uint32_t>(row));
   }
-  const double exact = static_cast<double>(share) * static_cast<double>(rows.size());
-  const auto kept = std::max<std::size_t>(1, static_cast<std::size_t>(std::round(exact)));
-  if (kept >= rows.size()) return Status::ok;
+  const float wanted = std::round(share * static_cast<float>(rows.size()));
+  const auto kept = std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
+  if (share == 1.0f || kept >= rows.size()) return Status::ok;
   const auto end = rows.begin() + static_cast<std::ptrdiff_t>(kept);
   std::nth_element(rows.begin(), end, rows.end(), [&](std::uint32_t a, std::uint32_t b) {
     const float of_a = confidence(features.frame_confidence[a]);
