@@ -23,13 +23,17 @@ std::vector<Configuration> configurations_named(const std::vector<std::string>& 
   const std::vector<Configuration> known = known_configurations();
   std::vector<Configuration> found;
   for (const std::string& name : names) {
-    const auto place = std::find_if(known.begin(), known.end(), [&](const auto& c) { return c.name == name; });
+    const KeptName wanted = kept_name_of(name);
+    const auto place =
+        std::find_if(known.begin(), known.end(), [&](const auto& c) { return c.name == wanted.descriptor; });
     if (place == known.end()) {
       std::string list;
       for (const Configuration& c : known) list += (list.empty() ? "" : ", ") + c.name;
       throw std::runtime_error("no descriptor \"" + name + "\"; there are " + list);
     }
     found.push_back(*place);
+    found.back().name = name;
+    found.back().kept = wanted.kept;
   }
   return found;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "paper/kept_frames.hpp"
 #include "shortshot/shortshot.hpp"
 
 namespace shortshot_bench::paper {
@@ -24,7 +25,7 @@ struct Described {
 };
 
 using Describe = Described (*)(const shortshot::CloudView&, const shortshot::GridSearch&,
-                               const std::vector<shortshot::KeyPoint>&, const shortshot::Support&);
+                               const std::vector<shortshot::KeyPoint>&, const shortshot::Support&, const KeptFrames&);
 
 struct Configuration {
   std::string name;
@@ -33,6 +34,7 @@ struct Configuration {
   bool needs_normals;
   std::string layout;  // what its values mean
   Describe describe;   // throws std::runtime_error with the library's message
+  KeptFrames kept;     // for describe()
 
   std::size_t size_bytes() const { return size * sizeof(float); }
 };
@@ -42,23 +44,31 @@ void require(shortshot::Status status);
 
 template <class D>
 Described describe_as(const shortshot::CloudView& cloud, const shortshot::GridSearch& search,
-                      const std::vector<shortshot::KeyPoint>& keypoints, const shortshot::Support& support) {
+                      const std::vector<shortshot::KeyPoint>& keypoints, const shortshot::Support& support,
+                      const KeptFrames& kept) {
   shortshot::Features<D> features;
   require(shortshot::extract(cloud, search, keypoints, support, features));
+  require(keep_frames(features, keypoints, kept));
   return {std::move(features.values), std::move(features.status), std::move(features.frames), keypoints,
           static_cast<std::size_t>(D::size)};
 }
 
 template <class D>
 Configuration configuration(std::string name) {
-  return {std::move(name),  static_cast<std::size_t>(D::size), D::needs_colors,
-          D::needs_normals, shortshot::layout_of<D>(),         describe_as<D>};
+  return {std::move(name),
+          static_cast<std::size_t>(D::size),
+          D::needs_colors,
+          D::needs_normals,
+          shortshot::layout_of<D>(),
+          describe_as<D>,
+          {}};
 }
 
 /// All that `--descriptor` knows, the paper's baseline first.
 std::vector<Configuration> known_configurations();
 
-/// Those of them with these names, in that order. Throws std::runtime_error with the names that there are.
+/// Those of them with these names, in that order; a name may say which key points are kept. Throws std::runtime_error
+/// with the names that there are.
 std::vector<Configuration> configurations_named(const std::vector<std::string>& names);
 
 }  // namespace shortshot_bench::paper

@@ -158,7 +158,9 @@ std::vector<Matching> match_pair(const datasets::ViewPair& pair, const MatchingS
   std::vector<Matching> matchings;
   for (const Configuration& configuration : configurations) {
     if (configuration.needs_colors && !(source.has_colors() && target.has_colors())) continue;
-    matchings.push_back(match(source.describe(configuration), target.describe(configuration), settings, truth));
+    Configuration for_target = configuration;
+    if (settings.all_of_target) for_target.kept = {};
+    matchings.push_back(match(source.describe(configuration), target.describe(for_target), settings, truth));
     matchings.back().descriptor = configuration.name;
   }
   return matchings;

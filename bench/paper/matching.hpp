@@ -19,7 +19,8 @@ struct MatchingSettings {
   float correct_distance = 0.01f;  // of a match from the true place, at most; meters
   float inlier_distance = 0.01f;   // of RANSAC; meters
   std::uint32_t iterations = 5000;
-  std::uint32_t seeds = 3;  // RANSAC runs of each pair
+  std::uint32_t seeds = 3;     // RANSAC runs of each pair
+  bool all_of_target = false;  // key points are left out of the source alone
 };
 
 /// The protocol's for a PairSet of that name: "object-scene", "views" or "frames".

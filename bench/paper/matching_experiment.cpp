@@ -32,7 +32,8 @@ nlohmann::ordered_json to_json(const MatchingSettings& settings) {
           {"correct_distance_m", settings.correct_distance},
           {"inlier_distance_m", settings.inlier_distance},
           {"ransac_iterations", settings.iterations},
-          {"ransac_runs", settings.seeds}};
+          {"ransac_runs", settings.seeds},
+          {"all_of_target", settings.all_of_target}};
 }
 
 void add_set(Experiment& experiment, const std::string& folder, const datasets::PairSet& set,
@@ -40,6 +41,7 @@ void add_set(Experiment& experiment, const std::string& folder, const datasets::
   const std::string name = std::filesystem::path(folder).lexically_normal().filename().string() + " " + set.name;
   MatchingSettings settings = matching_settings(set.name);
   settings.source.seed = settings.target.seed = options.seed;
+  settings.all_of_target = options.all_of_target;
   if (options.tolerance_m > 0.0f) settings.correct_distance = settings.inlier_distance = options.tolerance_m;
   auto pairs = nlohmann::ordered_json::array();
   for (const std::size_t i : chosen_pairs(set, options.quick)) {

@@ -5,6 +5,7 @@
 
 #include "paper/campaign/plot.hpp"
 #include "paper/claims.hpp"
+#include "paper/kept_frames.hpp"
 #include "paper/matching.hpp"
 #include "paper/matching_experiment.hpp"
 
@@ -30,6 +31,7 @@ double mean_over_trials(const Matching& m, const std::function<double(const Tria
 }
 
 double precision(const Matching& m) { return share(m.correct, m.reciprocal); }
+double right_matches(const Matching& m) { return static_cast<double>(m.correct); }
 double match_rate(const Matching& m) { return share(m.correct_nearest, m.matchable); }
 double c_rk(const Matching& m) {
   return mean_over_trials(m, [&](const Trial& t) { return share(t.inliers, m.keypoints); });
@@ -128,6 +130,30 @@ Table difference_table(const SetResults& set) {
     };
     table.add({d, difference(precision), difference(match_rate), difference(c_rk), difference(is_found),
                difference(success)});
+  }
+  return table;
+}
+
+/// The best frames against as many at random, pair by pair.
+Table kept_table(const SetResults& set) {
+  Table table(
+      "Key points with the surest frames, and as many at random",
+      {"descriptor", "kept, %", "precision", "precision at random", "precision, difference", "right matches",
+       "right matches at random", "right matches, difference", "success", "success at random", "success, difference"});
+  for (const std::string& d : set.descriptors) {
+    const KeptName name = kept_name_of(d);
+    const bool all = name.kept.percent == 100;
+    if (name.kept.at_random) continue;
+    const std::string control = name_of({name.descriptor, {name.kept.percent, true}});
+    if (!all && set.matchings.count(control) == 0) continue;
+    std::vector<Cell> row{name.descriptor, std::size_t{name.kept.percent}};
+    for (const auto& [figure, digits] : {std::pair{precision, 3}, {right_matches, 1}, {success, 3}}) {
+      row.emplace_back(text_of(over_pairs(set.figures(d, figure)), digits));
+      row.emplace_back(all ? "" : text_of(over_pairs(set.figures(control, figure)), digits));
+      row.emplace_back(all ? ""
+                           : text_of(over_pairs(minus(set.figures(d, figure), set.figures(control, figure))), digits));
+    }
+    table.add(row);
   }
   return table;
 }
@@ -243,6 +269,9 @@ Findings matching_report(const nlohmann::ordered_json& parameters, const UnitRes
           {prefix + "pairs", pair_table(set)}},
          {draw(set, number, "t_diff", "T_diff (equation 9)", median_t_diff, 3.0, directory),
           draw(set, number, "c_rk", "C_rk", c_rk, campaign::automatic, directory)}});
+    if (keeps_frames(set.descriptors)) {
+      report.sections.back().tables.push_back({prefix + "kept_frames", kept_table(set)});
+    }
     add_claims(set, claims);
   }
   report.sections.push_back(section_of(claims));

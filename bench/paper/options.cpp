@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <stdexcept>
 
+#include "paper/kept_frames.hpp"
 #include "tools/io/finite_and_positive.hpp"
 
 namespace shortshot_bench::paper {
@@ -39,15 +40,24 @@ bool parse_options(int argc, const char* const* argv, PaperOptions& options, int
   app.name("paper");
   app.require_subcommand(1);
   std::string shard = "1/1";
+  std::vector<unsigned> kept_percentages;
   CLI::App* const matching = add_experiment(app, "matching", "key-point matching (section VI-A)", options, shard);
   CLI::App* const recognition = add_experiment(app, "recognition", "object recognition (VI-B)", options, shard);
   add_experiment(app, "ablation", "sizes of SCSH (VI-C)", options, shard);
   for (CLI::App* const command : {matching, recognition}) {
     command->add_option("--descriptor", options.descriptors, "those to compare, the baseline first (all; quick: three)")
         ->delimiter(',');
+    command
+        ->add_option("--keep-frames", kept_percentages,
+                     "each also with these percentages of the key points only: those with the surest frames, and as "
+                     "many at random")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 99));
   }
   matching->add_option("--tolerance", options.tolerance_m, "meters by which a correct match and an inlier may miss")
       ->check(finite_and_positive);
+  matching->add_flag("--all-of-target", options.all_of_target,
+                     "--keep-frames leaves out key points of the source only");
   CLI::App* const merge = app.add_subcommand("merge", "bring the results of shards together, and report on them");
   merge->add_option("FOLDER", options.data, "folders of results")->required();
   merge->add_option("--out", options.out, "folder of all results")->required();
@@ -66,6 +76,7 @@ bool parse_options(int argc, const char* const* argv, PaperOptions& options, int
     options.descriptors = {"cshot1344", "shot352", "scsh336", "scsh696", "ssh96", "ssh32"};
     if (options.quick) options.descriptors = {"cshot1344", "scsh336", "ssh96"};
   }
+  options.descriptors = with_kept_frames(options.descriptors, kept_percentages);
   return true;
 }
 

@@ -17,9 +17,10 @@ struct PaperOptions {
   campaign::Shard shard;
   unsigned threads = 0;  // 0: as many as there are cores
   std::uint32_t seed = 1;
-  float tolerance_m = 0.0f;  // of correct matches and of inliers; 0: the protocol's
-  bool quick = false;        // a small part of the data, to see that all works
-  bool check = false;        // against the bands of figures in bands.json
+  float tolerance_m = 0.0f;    // of correct matches and of inliers; 0: the protocol's
+  bool all_of_target = false;  // matching: key points are left out of the source alone
+  bool quick = false;          // a small part of the data, to see that all works
+  bool check = false;          // against the bands of figures in bands.json
 };
 
 /// False if there is nothing to run: help was asked for, or the options are wrong (exit code 2), both said already.

@@ -1,5 +1,6 @@
 #include "paper/accuracy.hpp"
 #include "paper/claims.hpp"
+#include "paper/kept_frames.hpp"
 #include "paper/recognition_experiment.hpp"
 
 namespace shortshot_bench::paper {
@@ -46,6 +47,30 @@ Table difference_table(const nlohmann::ordered_json& descriptors, const TaskResu
   return table;
 }
 
+/// The best frames against as many at random, view by view.
+Table kept_table(const nlohmann::ordered_json& descriptors, const TaskResults& task) {
+  Table table("Key points with the surest frames, and as many at random",
+              {"descriptor", "kept, %", "class, Hough", "class at random", "class, difference", "instance, Hough",
+               "instance at random", "instance, difference"});
+  for (const auto& d : descriptors) {
+    const KeptName name = kept_name_of(d.at("name"));
+    const bool all = name.kept.percent == 100;
+    if (name.kept.at_random) continue;
+    const std::string control = name_of({name.descriptor, {name.kept.percent, true}});
+    if (!all && task.of.count(control) == 0) continue;
+    std::vector<campaign::Cell> row{name.descriptor, std::size_t{name.kept.percent}};
+    for (const Correct figure : {hough_class, hough_instance}) {
+      const ByObject best = correct(task.of.at(d.at("name")), figure);
+      const ByObject random = all ? best : correct(task.of.at(control), figure);
+      row.emplace_back(percent_of(over_objects(best)));
+      row.emplace_back(all ? "" : percent_of(over_objects(random)));
+      row.emplace_back(all ? "" : percent_of(over_objects(difference(best, random))));
+    }
+    table.add(row);
+  }
+  return table;
+}
+
 void add_claims(const TaskResults& task, std::vector<Claim>& claims) {
   for (const char* d : {"scsh336", "scsh696"}) {
     if (task.of.count(d) == 0 || task.of.count("cshot1344") == 0) continue;
@@ -68,6 +93,9 @@ Findings recognition_report(const nlohmann::ordered_json& parameters, const Unit
   report.title = "Object recognition";
   report.parameters = parameters;
   const nlohmann::ordered_json& descriptors = parameters.at("descriptors");
+  std::vector<std::string> names;
+  for (const auto& d : descriptors) names.push_back(d.at("name"));
+  const bool any_kept = keeps_frames(names);
   std::vector<Claim> claims;
   std::size_t number = 0;
   for (const TaskResults& task : tasks_of(parameters, results)) {
@@ -81,6 +109,7 @@ Findings recognition_report(const nlohmann::ordered_json& parameters, const Unit
                                {{prefix + "accuracy", accuracy_table(descriptors, task, findings.figures)},
                                 {prefix + "differences", difference_table(descriptors, task)}},
                                {}});
+    if (any_kept) report.sections.back().tables.push_back({prefix + "kept_frames", kept_table(descriptors, task)});
     add_claims(task, claims);
   }
   report.sections.push_back(section_of(claims));

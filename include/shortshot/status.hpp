@@ -39,10 +39,11 @@ enum class [[nodiscard]] Status : std::uint8_t {
   damaged_model,       ///< the model is truncated, or its checksum or contents are wrong
   no_file,             ///< a file cannot be read or written
   missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
+  unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
 };
 // clang-format on
 
-inline constexpr int status_count = static_cast<int>(Status::missing_intensities) + 1;
+inline constexpr int status_count = static_cast<int>(Status::unsure_frame) + 1;
 
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
@@ -77,6 +78,7 @@ inline namespace SHORTSHOT_CODE {
     case Status::damaged_model: return "the model is damaged";
     case Status::no_file: return "the file cannot be read or written";
     case Status::missing_intensities: return "the descriptor needs intensities and there are none";
+    case Status::unsure_frame: return "other key points have surer frames";
   }
   return "unknown status";
 }

@@ -15,6 +15,7 @@
 #include "../status.hpp"
 #include "extractor.hpp"
 #include "features.hpp"
+#include "keep_best_frames.hpp"
 #include "keypoints.hpp"
 
 namespace shortshot {
@@ -25,6 +26,7 @@ struct CloudOptions {
   float radius = 0.04f;       ///< of the support, in meters
   float leaf = 0.02f;         ///< one key point in each occupied voxel of that many meters: its points' centroid
   float frame_radius = 0.0f;  ///< of the local reference frame, in meters; 0: the support's
+  float best_frames = 1.0f;   ///< above 0, at most 1: share of the key points that is kept, those with surest frames
   Viewpoint viewpoint;        ///< turns the frames' z; Viewpoint::towards({0, 0, 0}): a camera at the origin
   unsigned threads = 1;       ///< that share the work
 };
@@ -36,9 +38,9 @@ inline namespace SHORTSHOT_CODE {
 /// has the key points, too.
 ///
 /// Statuses: empty_cloud, bad_view, bad_leaf, bad_radius, bad_viewpoint, missing_colors, missing_normals (for SHOT and
-/// CSHOT: estimate_normals() first), missing_intensities; `out` is empty, or all its rows have that status. Each row
-/// has a status of its own. Allocates what those three do, anew in every call; for cloud after cloud take them one by
-/// one.
+/// CSHOT: estimate_normals() first), missing_intensities, bad_option (best_frames); `out` is empty, or all its rows
+/// have that status. Each row has a status of its own. Allocates what those three do, anew in every call; for cloud
+/// after cloud take them one by one.
 template <class D>
 [[nodiscard]] Status describe_cloud(const CloudView& cloud, const CloudOptions& options, Features<D>& out) {
   detail::clear_rows(out, 0, Status::ok);
@@ -50,7 +52,8 @@ template <class D>
   if (status == Status::ok) status = sample_centroids(cloud, options.leaf, keypoints);
   if (status != Status::ok) return status;
   const GridSearch search(cloud, options.radius);
-  return Extractor<D>().extract(cloud, search, keypoints, support, out, options.threads);
+  status = Extractor<D>().extract(cloud, search, keypoints, support, out, options.threads);
+  return status == Status::ok ? keep_best_frames(out, options.best_frames) : status;
 }
 
 }  // namespace SHORTSHOT_CODE

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 #include <vector>
 
@@ -76,7 +75,7 @@ class Extractor {
                                const Support& support, Features<D>& out, Threads&& threads = 1u, const Own&... own) {
     const auto finish = [&](const Neighborhood& n, const auto& sources, std::size_t row, float* values) {
       return detail::describe_gathered<D, default_chunk_size>(n, sources, out.keypoints[row].position, support,
-                                                              out.frames[row], values);
+                                                              out.frames[row], values, out.frame_confidence[row]);
     };
     return extract_all(cloud, search, keypoints, support, out, threads, finish, own...);
   }
@@ -123,8 +122,7 @@ class Extractor {
         if (!detail::keypoint_at(cloud, keypoints, row, key)) continue;
         status = extract_row(cloud, search, support, workspaces_[thread], out, row, finish, own...);
         if (status == Status::ok) continue;
-        out.frames[row] = Frame{};
-        std::memset(row_of(out, row), 0, D::size_bytes);
+        detail::clear_row(out, row);
       }
     };
     detail::for_blocks(executor, team, count, detail::keypoint_block, extract_rows);

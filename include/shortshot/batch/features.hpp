@@ -1,6 +1,7 @@
 // shortshot/batch/features.hpp: rows of descriptors with where and how they were made. Hosted only.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,11 +18,12 @@ inline namespace SHORTSHOT_TYPES {
 /// scratch memory. Keep it from frame to frame and its memory is used again.
 template <class D>
 struct Features {
-  std::vector<float> values;             ///< size() * D::size, row by row; zeros where the status is not ok
-  std::vector<Status> status;            ///< one per key point
-  std::vector<KeyPoint> keypoints;       ///< what was described; zeros for an index outside of the cloud
-  std::vector<Frame> frames;             ///< the local reference frame of each; zeros where the status is not ok
-  std::vector<std::uint32_t> neighbors;  ///< found within the larger radius, the key point itself included
+  std::vector<float> values;        ///< size() * D::size, row by row; zeros where the status is not ok
+  std::vector<Status> status;       ///< one per key point
+  std::vector<KeyPoint> keypoints;  ///< what was described; zeros for an index outside of the cloud
+  std::vector<Frame> frames;        ///< the local reference frame of each; zeros where the status is not ok
+  std::vector<FrameConfidence> frame_confidence;  ///< how sure each of them is; zeros: not ok, or the caller's frame
+  std::vector<std::uint32_t> neighbors;           ///< found within the larger radius, the key point itself included
 
   [[nodiscard, gnu::always_inline]] std::size_t size() const noexcept { return status.size(); }
   [[nodiscard, gnu::always_inline]] const float* operator[](std::size_t row) const noexcept {
@@ -35,6 +37,15 @@ struct Features {
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
+/// What a row holds whose status is not ok.
+template <class D>
+void clear_row(Features<D>& features, std::size_t row) noexcept {
+  constexpr auto row_size = static_cast<std::size_t>(D::size);
+  features.frames[row] = Frame{};
+  features.frame_confidence[row] = FrameConfidence{};
+  std::fill_n(features.values.data() + row * row_size, row_size, 0.0f);
+}
+
 /// `count` rows without a descriptor, all with one status. Whatever is thrown while memory is asked for, no row of
 /// before is left.
 template <class D>
@@ -43,6 +54,7 @@ void clear_rows(Features<D>& out, std::size_t count, Status status) {
   out.values.assign(count * static_cast<std::size_t>(D::size), 0.0f);
   out.keypoints.assign(count, KeyPoint{});
   out.frames.assign(count, Frame{});
+  out.frame_confidence.assign(count, FrameConfidence{});
   out.neighbors.assign(count, 0);
   out.status.assign(count, status);
 }

@@ -46,13 +46,15 @@ template <class D, class Search>
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// Frame and kernel of a neighborhood around `center`. The arguments were validated before.
-template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
+/// Frame and kernel of a neighborhood around `center`; for `confidence` see frame_of(). The arguments were validated
+/// before.
+template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources, class... Confidence>
 [[nodiscard]] inline Status describe_gathered(const Neighbors& n, const Sources& sources, const Point& center,
-                                              const Support& support, Frame& frame, float* out) noexcept {
+                                              const Support& support, Frame& frame, float* out,
+                                              Confidence&... confidence) noexcept {
   float view[3];
   Status status = direction_at(support.viewpoint, center, view);
-  if (status == Status::ok) status = frame_of(n, support.frame_radius, view, frame);
+  if (status == Status::ok) status = frame_of(n, support.frame_radius, view, frame, confidence...);
   if (status != Status::ok) return status;
   return describe_checked<D, ChunkSize>(n, sources, frame, support.radius, out);
 }

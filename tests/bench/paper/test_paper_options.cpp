@@ -34,6 +34,10 @@ TEST_CASE("paper: options") {
   CHECK(options.descriptors == std::vector<std::string>{"ssh32", "scsh336"});
   CHECK((options.quick && !options.check));
   options = {};
+  REQUIRE(parse({"matching", "a", "--descriptor", "ssh32", "--keep-frames", "50,5"}, options, exit_code));
+  CHECK(options.descriptors ==
+        std::vector<std::string>{"ssh32", "ssh32-best50", "ssh32-random50", "ssh32-best5", "ssh32-random5"});
+  options = {};
   REQUIRE(parse({"recognition", "a"}, options, exit_code));
   CHECK(options.descriptors.size() == 6);
 }
@@ -44,6 +48,8 @@ TEST_CASE("paper: wrong options end with exit code 2") {
                                                     {"matching", "a", "--shard", "4/3"},
                                                     {"matching", "a", "--tolerance", "nan"},
                                                     {"matching", "a", "--tolerance", "0"},
+                                                    {"matching", "a", "--keep-frames", "100"},
+                                                    {"matching", "a", "--keep-frames", "0"},
                                                     {"cooking", "a"},
                                                     {"merge", "a"}}) {
     PaperOptions options;

@@ -104,6 +104,10 @@ TEST_CASE("status: every value is reached by some call") {
       describe_into_garbage<ss::IntensityShape336>(cloud.view(), std::size_t{0}),
   };
   reached.merge(reached_by_recognition(upright));
+  ss::Features<D> features;
+  REQUIRE(ss::extract(cloud.view(), ss::BruteSearch{cloud.view()}, std::vector{1, 2}, radius, features) == Status::ok);
+  REQUIRE(ss::keep_best_frames(features, 0.5f) == Status::ok);
+  reached.insert(features.status.begin(), features.status.end());
   for (int value = 0; value < ss::status_count; ++value) {
     const auto status = static_cast<Status>(value);
     CAPTURE(status);
