@@ -3638,15 +3638,23 @@ template <class Signal, class... Signals>
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_DESCRIPTOR_SIGNALS_HPP
 
-// shortshot/descriptor/voting.hpp: how one point is shared among neighboring cells, written once over N axes.
+// shortshot/descriptor/voting.hpp: how one point votes for neighboring bins, written once over N axes: SHOT's
+// quadrilinear interpolation as PCL computes it, the published code's rule, and others.
 //
-// A rule has two steps. split() takes a position along one axis and finds the cell it lies in and the nearer
-// neighboring cell, its partner, with the share of each. combine() makes a list of votes from the shares of all axes:
-// axis 0 radius, 1 elevation, 2 azimuth, and 3 the histogram's signal where the part has one.
-//
-// All of it is integer arithmetic: shares are added up exactly, and indices need no conversion.
+// A rule has two steps. split() takes a position along one axis and finds the bin (of the grid: the cell; of azimuths:
+// the sector) it lies in and the nearer neighboring one, its partner, with the share of each (interpolation.hpp).
+// combine() makes a list of votes from the shares of all axes: axis 0 radius, 1 elevation, 2 azimuth, and 3 the
+// histogram's signal where the part has one.
 #ifndef SHORTSHOT_DESCRIPTOR_VOTING_HPP
 #define SHORTSHOT_DESCRIPTOR_VOTING_HPP
+
+// shortshot/descriptor/interpolation.hpp: linear interpolation along one axis: how a point is shared between the bin it
+// lies in and the nearer neighboring one, its partner.
+//
+// All of it is integer arithmetic: shares are added up exactly, and indices need no conversion. A partner's share is
+// kept twice, in half units, because it is the distance from the bin's middle in units of half a bin.
+#ifndef SHORTSHOT_DESCRIPTOR_INTERPOLATION_HPP
+#define SHORTSHOT_DESCRIPTOR_INTERPOLATION_HPP
 
 namespace shortshot::extend {
 inline namespace SHORTSHOT_TYPES {
@@ -3675,12 +3683,6 @@ struct Votes {
   simd::I32 weight[Count];
 };
 
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::extend
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
 /// The cell of a position. The very end of the axis is the upper border of the last cell.
 [[nodiscard]] SHORTSHOT_INLINE simd::I32 cell_of(const Axis& axis, simd::I32 position) noexcept {
   const simd::I32 cell = simd::small_min(simd::shift_right(position, axis.bits), simd::all_int(axis.cells - 1));
@@ -3698,7 +3700,7 @@ inline namespace SHORTSHOT_CODE {
 [[nodiscard]] SHORTSHOT_INLINE simd::I32 next_around(const Axis& axis, simd::I32 cell, simd::I32 direction) noexcept {
   using simd::all_int;
   const simd::I32 next = cell + direction;
-  if (!small_code && (axis.cells & (axis.cells - 1)) == 0) return next & all_int(axis.cells - 1);
+  if (!detail::small_code && (axis.cells & (axis.cells - 1)) == 0) return next & all_int(axis.cells - 1);
   return (next + keep(is_negative(next), all_int(axis.cells))) -
          keep(next > all_int(axis.cells - 1), all_int(axis.cells));
 }
@@ -3735,13 +3737,13 @@ inline namespace SHORTSHOT_CODE {
 
 /// Are there positions on this axis without a partner?
 [[nodiscard]] constexpr bool may_be_alone(const Axis& axis) noexcept {
-  return small_code || axis.cells == 1 || axis.end == Beyond::nothing || axis.below_zero == BelowZero::nowhere;
+  return detail::small_code || axis.cells == 1 || axis.end == Beyond::nothing || axis.below_zero == BelowZero::nowhere;
 }
 
 template <int Axes>
 [[nodiscard]] SHORTSHOT_INLINE simd::I32 primary_index(const Share (&shares)[4]) noexcept {
   simd::I32 index = shares[0].cell;
-  each<Axes - 1>([&](auto i) { index = index + shares[i + 1].cell; });
+  detail::each<Axes - 1>([&](auto i) { index = index + shares[i + 1].cell; });
   return index;
 }
 
@@ -3749,12 +3751,13 @@ template <int Axes>
 template <int Axes>
 [[nodiscard]] SHORTSHOT_INLINE simd::I32 twice_all_partners(const Share (&shares)[4]) noexcept {
   simd::I32 sum = shares[0].twice_partner;
-  each<Axes - 1>([&](auto i) { sum = sum + shares[i + 1].twice_partner; });
+  detail::each<Axes - 1>([&](auto i) { sum = sum + shares[i + 1].twice_partner; });
   return sum;
 }
 
 }  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
+}  // namespace shortshot::extend
+#endif  // SHORTSHOT_DESCRIPTOR_INTERPOLATION_HPP
 
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
@@ -3781,7 +3784,7 @@ struct AdditiveVoting {
       const extend::simd::Mask below = is_negative(position);
       fraction = keep(below, position) + drop(below, fraction);
     }
-    return detail::share(axis, detail::cell_of(axis, position), fraction, unit, false);
+    return extend::share(axis, extend::cell_of(axis, position), fraction, unit, false);
   }
 
   template <int Axes>
@@ -3790,18 +3793,18 @@ struct AdditiveVoting {
                                                                         const extend::VoteUnit& unit) noexcept {
     using extend::simd::all_int;
     const extend::simd::I32 sum =
-        all_int(Axes * unit.one) - extend::simd::shift_right(detail::twice_all_partners<Axes>(shares), 1);
+        all_int(Axes * unit.one) - extend::simd::shift_right(extend::twice_all_partners<Axes>(shares), 1);
     const extend::simd::I32 rest = sum - all_int(unit.one);
 
     extend::Votes<Axes + 1> votes;
-    votes.index[0] = detail::primary_index<Axes>(shares);
+    votes.index[0] = extend::primary_index<Axes>(shares);
     votes.weight[0] = sum;
     detail::each<Axes>([&](auto i) {
       // A share 1 - p replaced by p.
       extend::simd::I32 weight = rest + shares[i].twice_partner;
       if (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all_int(unit.one));
       votes.index[i + 1] = votes.index[0] + shares[i].step;
-      votes.weight[i + 1] = detail::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
+      votes.weight[i + 1] = extend::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
     });
     return votes;
   }
@@ -3810,10 +3813,11 @@ struct AdditiveVoting {
 /// The published rule to the last quirk: the library's default.
 using PublishedVoting = AdditiveVoting<true>;
 
-/// SHOT's rule: each axis votes by itself. The shares of all axes ADD UP in the primary cell, as in AdditiveVoting, but
-/// an axis' partner gets that axis' share alone. At most 1 + N cells a point; a vote beyond the ends of radius,
-/// elevation or histogram is lost. `WrapLastBin` is a defect of PCL, in whose code the bins of a histogram are counted
-/// one short: a vote from the last bin but one up to the last one goes to the first one instead.
+/// SHOT's rule, its quadrilinear interpolation: each axis votes by itself. The shares of all axes ADD UP in the primary
+/// cell, as in AdditiveVoting, but an axis' partner gets that axis' share alone. At most 1 + N cells a point; a vote
+/// beyond the ends of radius, elevation or histogram is lost. `WrapLastBin` is a defect of PCL, in whose code the bins
+/// of a histogram are counted one short: a vote from the last bin but one up to the last one goes to the first one
+/// instead.
 template <bool WrapLastBin>
 struct SeparateVoting {
   static constexpr const char* name = WrapLastBin ? "PCL voting" : "SHOT voting";
@@ -3824,7 +3828,7 @@ struct SeparateVoting {
 
   [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
                                                             const extend::VoteUnit& unit) noexcept {
-    extend::Share share = detail::share_in_cell(axis, position, unit, true);
+    extend::Share share = extend::share_in_cell(axis, position, unit, true);
     if (axis.below_zero == extend::BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
       const extend::simd::Mask nowhere = is_negative(position);
       share.twice_partner = drop(nowhere, share.twice_partner) + keep(nowhere, extend::simd::all_int(2 * unit.one));
@@ -3839,8 +3843,8 @@ struct SeparateVoting {
                                                                         const extend::VoteUnit& unit) noexcept {
     using extend::simd::all_int;
     extend::Votes<Axes + 1> votes;
-    votes.index[0] = detail::primary_index<Axes>(shares);
-    votes.weight[0] = all_int(2 * Axes * unit.one) - detail::twice_all_partners<Axes>(shares);
+    votes.index[0] = extend::primary_index<Axes>(shares);
+    votes.weight[0] = all_int(2 * Axes * unit.one) - extend::twice_all_partners<Axes>(shares);
     detail::each<Axes>([&](auto i) {
       const extend::simd::I32 weight = shares[i].twice_partner;
       extend::simd::I32 index = votes.index[0] + shares[i].step;
@@ -3849,7 +3853,7 @@ struct SeparateVoting {
         index = index - keep(shares[3].cell + shares[3].step == all_int(last), all_int(last));
       }
       votes.index[i + 1] = index;
-      votes.weight[i + 1] = detail::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
+      votes.weight[i + 1] = extend::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
     });
     return votes;
   }
@@ -3869,19 +3873,20 @@ struct HardVoting {
   [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
                                                             const extend::VoteUnit&) noexcept {
     using extend::simd::all_int;
-    return {detail::times(detail::cell_of(axis, position), axis.stride), all_int(0), all_int(0)};
+    return {extend::times(extend::cell_of(axis, position), axis.stride), all_int(0), all_int(0)};
   }
 
   template <int Axes>
   [[nodiscard]] SHORTSHOT_INLINE static extend::Votes<1> combine(const extend::Axis (&)[4],
                                                                  const extend::Share (&shares)[4],
                                                                  const extend::VoteUnit& unit) noexcept {
-    return {{detail::primary_index<Axes>(shares)}, {extend::simd::all_int(unit.one)}};
+    return {{extend::primary_index<Axes>(shares)}, {extend::simd::all_int(unit.one)}};
   }
 };
 
-/// Multilinear interpolation: shares multiply, over all 2^N cells around the point. A partition of unity (every point
-/// counts exactly once in all: what has no partner stays in the cell) and continuous at every border between cells.
+/// Multilinear interpolation (quadrilinear with a histogram): shares multiply, over all 2^N cells around the point. A
+/// partition of unity (every point counts exactly once in all: what has no partner stays in the cell) and continuous at
+/// every border between cells.
 struct MultilinearVoting {
   static constexpr const char* name = "multilinear voting";
   static constexpr bool partners_get_own_share = false;
@@ -3891,7 +3896,7 @@ struct MultilinearVoting {
 
   [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
                                                             const extend::VoteUnit& unit) noexcept {
-    extend::Share share = detail::share_in_cell(axis, position, unit, false);
+    extend::Share share = extend::share_in_cell(axis, position, unit, false);
     share.twice_partner = drop(share.step == extend::simd::all_int(0), share.twice_partner);
     return share;
   }
@@ -3903,7 +3908,7 @@ struct MultilinearVoting {
     const extend::simd::F32 half = extend::simd::all(0.5f / static_cast<float>(unit.one));
     extend::Votes<(1 << Axes)> votes;
     extend::simd::F32 weight[1 << Axes];
-    votes.index[0] = detail::primary_index<Axes>(shares);
+    votes.index[0] = extend::primary_index<Axes>(shares);
     weight[0] = extend::simd::all(static_cast<float>(unit.one));
     detail::unroll<Axes>([&](auto axis) {
       constexpr int count = 1 << decltype(axis)::value;
