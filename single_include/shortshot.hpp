@@ -384,24 +384,6 @@ inline namespace SHORTSHOT_CODE {
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// Has the cloud what a source reads?
-[[nodiscard]] inline bool has_channel(const CloudView& cloud, Channel channel) noexcept {
-  switch (channel) {
-    case Channel::colors: return has_colors(cloud);
-    case Channel::normals: return has_normals(cloud);
-    case Channel::intensities: return has_intensities(cloud);
-    case Channel::own: return true;
-  }
-  return true;
-}
-
-/// What to say where it has not.
-[[nodiscard]] constexpr Status missing(Channel channel) noexcept {
-  return channel == Channel::colors    ? Status::missing_colors
-         : channel == Channel::normals ? Status::missing_normals
-                                       : Status::missing_intensities;
-}
-
 /// A channel whose x, y and z follow each other by `step` bytes; absent if there is no memory.
 [[nodiscard]] inline Float3Channel float3_channel(const float* first, std::size_t step, std::size_t stride) noexcept {
   if (first == nullptr) return {};
@@ -2215,12 +2197,12 @@ inline namespace SHORTSHOT_CODE {
 /// What to turn to at a place; zeros if the viewpoint is absent. bad_viewpoint if it is not finite, or so far away that
 /// the difference overflows.
 [[nodiscard]] inline Status direction_at(const Viewpoint& viewpoint, const Point& place, float (&view)[3]) noexcept {
-  const Point& p = viewpoint.point;
-  const bool towards = viewpoint.side == Viewpoint::Side::towards;
-  const bool away = viewpoint.side == Viewpoint::Side::away_from;
-  view[0] = towards ? p.x - place.x : away ? place.x - p.x : 0.0f;
-  view[1] = towards ? p.y - place.y : away ? place.y - p.y : 0.0f;
-  view[2] = towards ? p.z - place.z : away ? place.z - p.z : 0.0f;
+  view[0] = view[1] = view[2] = 0.0f;
+  if (viewpoint.side == Viewpoint::Side::absent) return Status::ok;
+  const float side = viewpoint.side == Viewpoint::Side::towards ? 1.0f : -1.0f;
+  view[0] = (viewpoint.point.x - place.x) * side;
+  view[1] = (viewpoint.point.y - place.y) * side;
+  view[2] = (viewpoint.point.z - place.z) * side;
   return math::is_finite(view) ? Status::ok : Status::bad_viewpoint;
 }
 
@@ -2436,8 +2418,8 @@ struct KeyPoint {
   Point position;
   float intensity;
   Rgb color;
-  bool has_color;
-  bool has_intensity;
+  bool has_color : 1;
+  bool has_intensity : 1;
 
   KeyPoint() = default;
   [[gnu::always_inline]] constexpr KeyPoint(const Point& p) noexcept  // NOLINT: a point can be described
@@ -2851,8 +2833,8 @@ struct RgbColors {
   }
 
   [[nodiscard]] static RgbColors at(const CloudView& cloud, const KeyPoint& key) noexcept {
-    RgbColors colors(cloud, to_lab<LabRule>(key.has_color ? key.color : Rgb{}));
-    if (!key.has_color) colors.bytes = {};
+    RgbColors colors(cloud, to_lab<LabRule>(key.color));
+    if (!key.has_color) colors.bytes.r = nullptr;
     return colors;
   }
   /// May a source stand in for this one? StoredColors and whatever else gives a Lab by index may; if it says by which
@@ -5264,15 +5246,14 @@ inline namespace SHORTSHOT_CODE {
 
 /// Can this cloud be described by D with this search and support? All that can be said before the first key point.
 template <class D, class Search>
-[[nodiscard]] inline Status validate(const CloudView& cloud, const Search& search, const Support& support) noexcept {
+[[nodiscard, gnu::always_inline]] inline Status validate(const CloudView& cloud, const Search& search, const Support& support) noexcept {
   Status status = detail::validate_search(cloud, search);
   if (status == Status::ok) status = validate(support.radius);
   if (status == Status::ok) status = validate(support.frame_radius);
   if (status == Status::ok) status = validate(support.viewpoint);
-  for (const Channel channel : {Channel::colors, Channel::normals, Channel::intensities}) {
-    if (status != Status::ok) break;
-    if (D::needs(channel) && !detail::has_channel(cloud, channel)) status = detail::missing(channel);
-  }
+  if (status == Status::ok && D::needs_colors && !has_colors(cloud)) status = Status::missing_colors;
+  if (status == Status::ok && D::needs_normals && !has_normals(cloud)) status = Status::missing_normals;
+  if (status == Status::ok && D::needs_intensities && !has_intensities(cloud)) status = Status::missing_intensities;
   return status;
 }
 
@@ -5317,7 +5298,7 @@ template <class Kind, class First, class... Own>
     return first;
   } else if constexpr (std::is_pointer<First>::value && channel_of<Kind> == Channel::colors) {
     using Color = std::remove_const_t<std::remove_pointer_t<First>>;
-    const Lab reference = to_lab<typename Kind::Rule>(key.has_color ? key.color : Rgb{});
+    const Lab reference = to_lab<typename Kind::Rule>(key.color);
     return StoredColors<Color>{key.has_color ? first : nullptr, reference};
   } else {
     return source_at<Kind>(cloud, key, own...);
@@ -5337,8 +5318,11 @@ template <class D, class Place>
   if constexpr (std::is_integral<Place>::value) {
     const auto index = static_cast<std::size_t>(place);  // a negative one becomes far too large
     if (index >= cloud.size) return Status::bad_keypoint;
-    key = KeyPoint(point(cloud, index));
-    if constexpr (D::needs_colors) key = KeyPoint(key.position, color(cloud, index));
+    if constexpr (D::needs_colors) {
+      key = KeyPoint(point(cloud, index), color(cloud, index));
+    } else {
+      key = KeyPoint(point(cloud, index));
+    }
     if constexpr (D::needs_intensities) {
       key.intensity = intensity(cloud, index);
       key.has_intensity = true;
@@ -5351,7 +5335,7 @@ template <class D, class Place>
 
 /// Everything up to the gathered neighborhood; finish(neighborhood, sources, position) makes the descriptor of it.
 template <class D, class Search, class Place, class Memory, class Finish, class... Own>
-[[nodiscard]] inline Status describe_key(const CloudView& cloud, const Search& search, const Place& place,
+[[nodiscard, gnu::always_inline]] inline Status describe_key(const CloudView& cloud, const Search& search, const Place& place,
                                          const Support& support, Memory& workspace, float* out, const Finish& finish,
                                          const Own&... own) noexcept {
   std::memset(out, 0, D::size_bytes);
@@ -5391,12 +5375,12 @@ inline namespace SHORTSHOT_CODE {
 /// reentrant, one workspace per thread.
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place = KeyPoint, class Memory,
           class... Own>
-[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
+[[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
                                         const Support& support, Memory& workspace, float* out,
                                         const Own&... own) noexcept {
   return detail::describe_key<D>(
       cloud, search, place, support, workspace, out,
-      [&](const auto& n, const auto& sources, const Point& position) {
+      [&](const auto& n, const auto& sources, const Point& position) __attribute__((always_inline)) {
         Frame frame;
         return detail::describe_gathered<D, ChunkSize>(n, sources, position, support, frame, out);
       },
@@ -5406,12 +5390,12 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, c
 /// The same in a frame that the caller knows; bad_frame if it is not orthonormal.
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place = KeyPoint, class Memory,
           class... Own>
-[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
+[[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
                                         const Frame& frame, Radius radius, Memory& workspace, float* out,
                                         const Own&... own) noexcept {
   return detail::describe_key<D>(
       cloud, search, place, radius, workspace, out,
-      [&](const auto& n, const auto& sources, const Point&) {
+      [&](const auto& n, const auto& sources, const Point&) __attribute__((always_inline)) {
         return describe<D, ChunkSize>(n, sources, frame, radius, out);
       },
       own...);
@@ -5855,15 +5839,16 @@ class Grid {
 
   [[nodiscard]] Status build(const CloudView& cloud, float cell_size, const Memory& memory) noexcept {
     const Status status = plan(cloud, cell_size, memory);
-    if (status == Status::ok) sort(memory);
+    if (status == Status::ok) sort(cloud, memory);
     return status;
   }
 
   /// The first half of build(): settles the box of cells. Of the memory only cell_end is touched.
   [[nodiscard]] Status plan(const CloudView& cloud, float cell_size, const Memory& memory) noexcept {
     points_ = 0;
-    cloud_ = cloud;
-    status_ = fit(cell_size, memory);
+    channel_ = cloud.points;
+    cloud_size_ = cloud.size;
+    status_ = fit(cloud, cell_size, memory);
     return status_;
   }
 
@@ -5872,33 +5857,34 @@ class Grid {
 
   /// The second half, a counting sort: count per cell, turn counts into ends of the cells before, and let each placed
   /// point move its cell's end forward to where it belongs.
-  void sort(const Memory& memory) const noexcept {
+  void sort(const CloudView& cloud, const Memory& memory) const noexcept {
     if constexpr (Small) {
-      sort_by_two_passes(memory);
+      sort_by_two_passes(cloud, memory);
       return;
     }
     const Memory to = memory;  // a copy that no store can change stays in registers; so below
     const std::size_t cells = box_.cells();
     const bool roomy = to.xyz != nullptr && points_ >= 2 * simd::lanes;
     const CellNotes notes{roomy ? to.xyz : nullptr, points_};
-    if (roomy) note_cells(notes);
+    if (roomy) note_cells(cloud, notes);
     for (std::size_t c = 0; c < cells; ++c) to.cell_end[c] = 0;
-    for_each_cell(notes, [&](std::size_t, std::size_t cell) { ++to.cell_end[cell]; });
+    for_each_cell(cloud, notes, [&](std::size_t, std::size_t cell) { ++to.cell_end[cell]; });
     counts_to_begins(to.cell_end, cells);
-    for_each_cell(
-        notes, [&](std::size_t index, std::size_t cell) { to.order[to.cell_end[cell]++] = static_cast<Index>(index); });
+    for_each_cell(cloud, notes, [&](std::size_t index, std::size_t cell) {
+      to.order[to.cell_end[cell]++] = static_cast<Index>(index);
+    });
     if (to.xyz != nullptr) copy_points(to.order, to.xyz);
   }
 
   [[nodiscard]] Status status() const noexcept {
     return points_ == 0 && status_ == Status::ok ? Status::empty_cloud : status_;
   }
-  [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_.size; }
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_size_; }
   [[nodiscard]] std::size_t size() const noexcept { return points_; }
   [[nodiscard]] std::size_t cells() const noexcept { return box_.cells(); }
 
   template <class Neighbors>
-  [[nodiscard]] Status gather(const Contents& contents, const Point& center, Radius radius,
+  [[nodiscard, gnu::always_inline]] Status gather(const Contents& contents, const Point& center, Radius radius,
                               Neighbors& out) const noexcept {
     clear(out, center);
     if (status() != Status::ok) return status();
@@ -5936,11 +5922,11 @@ class Grid {
   }
 
   /// sort() in less flash: one loop over the points counts, and the same one places.
-  void sort_by_two_passes(const Memory& to) const noexcept {
+  void sort_by_two_passes(const CloudView& cloud, const Memory& to) const noexcept {
     const std::size_t cells = box_.cells();
     std::memset(to.cell_end, 0, cells * sizeof(Index));
     for (int pass = 0; pass < 2; ++pass) {
-      for_each_valid(cloud_, [&](std::size_t index, const Point& p) {
+      for_each_valid(cloud, [&](std::size_t index, const Point& p) {
         Index& end = to.cell_end[box_.cell_of(p)];
         if (pass == 1) to.order[end] = static_cast<Index>(index);
         ++end;
@@ -5949,19 +5935,19 @@ class Grid {
     }
   }
 
-  [[nodiscard]] Status fit(float cell_size, const Memory& memory) noexcept {
-    const Status usable = validate(cloud_);
+  [[nodiscard]] Status fit(const CloudView& cloud, float cell_size, const Memory& memory) noexcept {
+    const Status usable = validate(cloud);
     if (usable != Status::ok) return usable;
     if (validate(Radius(cell_size)) != Status::ok) return Status::bad_radius;
     if (memory.cell_capacity == 0) return Status::out_of_memory;
 
     Extent extent;
-    const std::size_t valid = measure(cloud_, extent);
+    const std::size_t valid = measure(cloud, extent);
     if (valid == 0) return Status::empty_cloud;
     constexpr std::size_t most = static_cast<Index>(~Index{0});
-    if (valid > memory.point_capacity || cloud_.size > most) return Status::out_of_memory;
+    if (valid > memory.point_capacity || cloud.size > most) return Status::out_of_memory;
 
-    if constexpr (!Small) leave_outliers_out(cloud_, valid, cell_size, memory.cell_end, memory.cell_capacity, extent);
+    if constexpr (!Small) leave_outliers_out(cloud, valid, cell_size, memory.cell_end, memory.cell_capacity, extent);
     fit_box(extent, cell_size, memory.cell_capacity, box_);
     if constexpr (!Small) box_.note_rounding(extent);
     points_ = valid;
@@ -5977,14 +5963,14 @@ class Grid {
     [[nodiscard]] float* places() const noexcept { return cells + 2 * size - simd::lanes; }
   };
 
-  void note_cells(const CellNotes& notes) const noexcept {
+  void note_cells(const CloudView& cloud, const CellNotes& notes) const noexcept {
     const GridBox box = box_;
     float* cell = notes.cells;
     float* place = notes.places();
     std::uint32_t lane_numbers[simd::lanes];
     for (std::uint32_t k = 0; k < simd::lanes; ++k) lane_numbers[k] = k;
     const simd::I32 lane = simd::load(lane_numbers);
-    for_each_valid_register(cloud_, [&](std::size_t i, const PointLanes& points, simd::Mask valid) {
+    for_each_valid_register(cloud, [&](std::size_t i, const PointLanes& points, simd::Mask valid) {
       const simd::Packing packing = simd::packing(valid);
       const simd::I32 index = simd::all_int(static_cast<std::int32_t>(i)) + lane;
       simd::store(cell, simd::from_bits(box.cells_of(points)), packing);
@@ -5996,10 +5982,10 @@ class Grid {
 
   /// Calls f(index, cell) for each valid point, in order.
   template <class Function>
-  void for_each_cell(const CellNotes& notes, Function f) const noexcept {
+  void for_each_cell(const CloudView& cloud, const CellNotes& notes, Function f) const noexcept {
     if (notes.cells == nullptr) {
       const GridBox box = box_;
-      for_each_valid(cloud_, [&](std::size_t index, const Point& p) { f(index, box.cell_of(p)); });
+      for_each_valid(cloud, [&](std::size_t index, const Point& p) { f(index, box.cell_of(p)); });
       return;
     }
     const auto integer = [](const float* note) {
@@ -6016,13 +6002,13 @@ class Grid {
     const std::size_t n = points_;
     std::size_t i = 0;
     for (; i + simd::lanes <= n; i += simd::lanes) {
-      const PointLanes p = read_lanes(cloud_.points, [&](std::size_t lane) { return order[i + lane]; });
+      const PointLanes p = read_lanes(channel_, [&](std::size_t lane) { return order[i + lane]; });
       simd::store(xyz + i, p.x);
       simd::store(xyz + n + i, p.y);
       simd::store(xyz + 2 * n + i, p.z);
     }
     for (; i < n; ++i) {
-      const Point p = point(cloud_, order[i]);
+      const Point p = read(channel_, order[i]);
       xyz[i] = p.x;
       xyz[n + i] = p.y;
       xyz[2 * n + i] = p.z;
@@ -6047,11 +6033,12 @@ class Grid {
       }
     }
     for (std::size_t i = begin; i < end; ++i) {
-      offer(out, point(cloud_, contents.order[i]), contents.order[i], center, radius_squared);
+      offer(out, read(channel_, contents.order[i]), contents.order[i], center, radius_squared);
     }
   }
 
-  CloudView cloud_;
+  Float3Channel channel_;  // the cloud's points, borrowed
+  std::size_t cloud_size_;
   GridBox box_;
   std::size_t points_;
   Status status_;
@@ -6125,7 +6112,7 @@ class StaticGrid {
   [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
   template <class Neighbors>
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
+  [[nodiscard, gnu::always_inline]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     return grid_.gather({order_, cell_end_, nullptr}, center, radius, out);
   }
 
@@ -6709,7 +6696,7 @@ class GridSearch {
       xyz_.resize(3 * next.size());
     }
     if (cell_end_.size() < next.cells()) cell_end_.resize(next.cells());
-    next.sort({order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cell_end_.size()});
+    next.sort(cloud, {order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cell_end_.size()});
     grid_ = next;
     return Status::ok;
   }

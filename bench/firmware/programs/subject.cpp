@@ -27,7 +27,8 @@ struct Given {
   [[nodiscard]] Status status() const noexcept { return Status::ok; }
   [[nodiscard]] std::size_t cloud_size() const noexcept { return points; }
   template <class Neighborhood>
-  [[nodiscard]] Status gather(const shortshot::Point&, shortshot::Radius, Neighborhood& out) const noexcept {
+  [[nodiscard]] Status gather(const shortshot::Point& center, shortshot::Radius, Neighborhood& out) const noexcept {
+    out.center = center;
     out.size = gathered;
     out.found = gathered;
     return Status::ok;

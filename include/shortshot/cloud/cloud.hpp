@@ -97,24 +97,6 @@ inline namespace SHORTSHOT_CODE {
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// Has the cloud what a source reads?
-[[nodiscard]] inline bool has_channel(const CloudView& cloud, Channel channel) noexcept {
-  switch (channel) {
-    case Channel::colors: return has_colors(cloud);
-    case Channel::normals: return has_normals(cloud);
-    case Channel::intensities: return has_intensities(cloud);
-    case Channel::own: return true;
-  }
-  return true;
-}
-
-/// What to say where it has not.
-[[nodiscard]] constexpr Status missing(Channel channel) noexcept {
-  return channel == Channel::colors    ? Status::missing_colors
-         : channel == Channel::normals ? Status::missing_normals
-                                       : Status::missing_intensities;
-}
-
 /// A channel whose x, y and z follow each other by `step` bytes; absent if there is no memory.
 [[nodiscard]] inline Float3Channel float3_channel(const float* first, std::size_t step, std::size_t stride) noexcept {
   if (first == nullptr) return {};

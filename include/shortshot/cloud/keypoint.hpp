@@ -17,8 +17,8 @@ struct KeyPoint {
   Point position;
   float intensity;
   Rgb color;
-  bool has_color;
-  bool has_intensity;
+  bool has_color : 1;
+  bool has_intensity : 1;
 
   KeyPoint() = default;
   [[gnu::always_inline]] constexpr KeyPoint(const Point& p) noexcept  // NOLINT: a point can be described

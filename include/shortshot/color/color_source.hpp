@@ -49,8 +49,8 @@ struct RgbColors {
   }
 
   [[nodiscard]] static RgbColors at(const CloudView& cloud, const KeyPoint& key) noexcept {
-    RgbColors colors(cloud, to_lab<LabRule>(key.has_color ? key.color : Rgb{}));
-    if (!key.has_color) colors.bytes = {};
+    RgbColors colors(cloud, to_lab<LabRule>(key.color));
+    if (!key.has_color) colors.bytes.r = nullptr;
     return colors;
   }
   /// May a source stand in for this one? StoredColors and whatever else gives a Lab by index may; if it says by which

@@ -48,12 +48,12 @@ inline namespace SHORTSHOT_CODE {
 /// What to turn to at a place; zeros if the viewpoint is absent. bad_viewpoint if it is not finite, or so far away that
 /// the difference overflows.
 [[nodiscard]] inline Status direction_at(const Viewpoint& viewpoint, const Point& place, float (&view)[3]) noexcept {
-  const Point& p = viewpoint.point;
-  const bool towards = viewpoint.side == Viewpoint::Side::towards;
-  const bool away = viewpoint.side == Viewpoint::Side::away_from;
-  view[0] = towards ? p.x - place.x : away ? place.x - p.x : 0.0f;
-  view[1] = towards ? p.y - place.y : away ? place.y - p.y : 0.0f;
-  view[2] = towards ? p.z - place.z : away ? place.z - p.z : 0.0f;
+  view[0] = view[1] = view[2] = 0.0f;
+  if (viewpoint.side == Viewpoint::Side::absent) return Status::ok;
+  const float side = viewpoint.side == Viewpoint::Side::towards ? 1.0f : -1.0f;
+  view[0] = (viewpoint.point.x - place.x) * side;
+  view[1] = (viewpoint.point.y - place.y) * side;
+  view[2] = (viewpoint.point.z - place.z) * side;
   return math::is_finite(view) ? Status::ok : Status::bad_viewpoint;
 }
 

@@ -28,15 +28,14 @@ inline namespace SHORTSHOT_CODE {
 
 /// Can this cloud be described by D with this search and support? All that can be said before the first key point.
 template <class D, class Search>
-[[nodiscard]] inline Status validate(const CloudView& cloud, const Search& search, const Support& support) noexcept {
+[[nodiscard, gnu::always_inline]] inline Status validate(const CloudView& cloud, const Search& search, const Support& support) noexcept {
   Status status = detail::validate_search(cloud, search);
   if (status == Status::ok) status = validate(support.radius);
   if (status == Status::ok) status = validate(support.frame_radius);
   if (status == Status::ok) status = validate(support.viewpoint);
-  for (const Channel channel : {Channel::colors, Channel::normals, Channel::intensities}) {
-    if (status != Status::ok) break;
-    if (D::needs(channel) && !detail::has_channel(cloud, channel)) status = detail::missing(channel);
-  }
+  if (status == Status::ok && D::needs_colors && !has_colors(cloud)) status = Status::missing_colors;
+  if (status == Status::ok && D::needs_normals && !has_normals(cloud)) status = Status::missing_normals;
+  if (status == Status::ok && D::needs_intensities && !has_intensities(cloud)) status = Status::missing_intensities;
   return status;
 }
 
@@ -81,7 +80,7 @@ template <class Kind, class First, class... Own>
     return first;
   } else if constexpr (std::is_pointer<First>::value && channel_of<Kind> == Channel::colors) {
     using Color = std::remove_const_t<std::remove_pointer_t<First>>;
-    const Lab reference = to_lab<typename Kind::Rule>(key.has_color ? key.color : Rgb{});
+    const Lab reference = to_lab<typename Kind::Rule>(key.color);
     return StoredColors<Color>{key.has_color ? first : nullptr, reference};
   } else {
     return source_at<Kind>(cloud, key, own...);
@@ -101,8 +100,11 @@ template <class D, class Place>
   if constexpr (std::is_integral<Place>::value) {
     const auto index = static_cast<std::size_t>(place);  // a negative one becomes far too large
     if (index >= cloud.size) return Status::bad_keypoint;
-    key = KeyPoint(point(cloud, index));
-    if constexpr (D::needs_colors) key = KeyPoint(key.position, color(cloud, index));
+    if constexpr (D::needs_colors) {
+      key = KeyPoint(point(cloud, index), color(cloud, index));
+    } else {
+      key = KeyPoint(point(cloud, index));
+    }
     if constexpr (D::needs_intensities) {
       key.intensity = intensity(cloud, index);
       key.has_intensity = true;
@@ -115,7 +117,7 @@ template <class D, class Place>
 
 /// Everything up to the gathered neighborhood; finish(neighborhood, sources, position) makes the descriptor of it.
 template <class D, class Search, class Place, class Memory, class Finish, class... Own>
-[[nodiscard]] inline Status describe_key(const CloudView& cloud, const Search& search, const Place& place,
+[[nodiscard, gnu::always_inline]] inline Status describe_key(const CloudView& cloud, const Search& search, const Place& place,
                                          const Support& support, Memory& workspace, float* out, const Finish& finish,
                                          const Own&... own) noexcept {
   std::memset(out, 0, D::size_bytes);
@@ -155,12 +157,12 @@ inline namespace SHORTSHOT_CODE {
 /// reentrant, one workspace per thread.
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place = KeyPoint, class Memory,
           class... Own>
-[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
+[[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
                                         const Support& support, Memory& workspace, float* out,
                                         const Own&... own) noexcept {
   return detail::describe_key<D>(
       cloud, search, place, support, workspace, out,
-      [&](const auto& n, const auto& sources, const Point& position) {
+      [&](const auto& n, const auto& sources, const Point& position) __attribute__((always_inline)) {
         Frame frame;
         return detail::describe_gathered<D, ChunkSize>(n, sources, position, support, frame, out);
       },
@@ -170,12 +172,12 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, c
 /// The same in a frame that the caller knows; bad_frame if it is not orthonormal.
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place = KeyPoint, class Memory,
           class... Own>
-[[nodiscard]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
+[[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
                                         const Frame& frame, Radius radius, Memory& workspace, float* out,
                                         const Own&... own) noexcept {
   return detail::describe_key<D>(
       cloud, search, place, radius, workspace, out,
-      [&](const auto& n, const auto& sources, const Point&) {
+      [&](const auto& n, const auto& sources, const Point&) __attribute__((always_inline)) {
         return describe<D, ChunkSize>(n, sources, frame, radius, out);
       },
       own...);

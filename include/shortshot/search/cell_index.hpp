@@ -78,7 +78,7 @@ class StaticGrid {
   [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
   template <class Neighbors>
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
+  [[nodiscard, gnu::always_inline]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     return grid_.gather({order_, cell_end_, nullptr}, center, radius, out);
   }
 

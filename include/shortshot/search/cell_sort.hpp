@@ -59,15 +59,16 @@ class Grid {
 
   [[nodiscard]] Status build(const CloudView& cloud, float cell_size, const Memory& memory) noexcept {
     const Status status = plan(cloud, cell_size, memory);
-    if (status == Status::ok) sort(memory);
+    if (status == Status::ok) sort(cloud, memory);
     return status;
   }
 
   /// The first half of build(): settles the box of cells. Of the memory only cell_end is touched.
   [[nodiscard]] Status plan(const CloudView& cloud, float cell_size, const Memory& memory) noexcept {
     points_ = 0;
-    cloud_ = cloud;
-    status_ = fit(cell_size, memory);
+    channel_ = cloud.points;
+    cloud_size_ = cloud.size;
+    status_ = fit(cloud, cell_size, memory);
     return status_;
   }
 
@@ -76,33 +77,34 @@ class Grid {
 
   /// The second half, a counting sort: count per cell, turn counts into ends of the cells before, and let each placed
   /// point move its cell's end forward to where it belongs.
-  void sort(const Memory& memory) const noexcept {
+  void sort(const CloudView& cloud, const Memory& memory) const noexcept {
     if constexpr (Small) {
-      sort_by_two_passes(memory);
+      sort_by_two_passes(cloud, memory);
       return;
     }
     const Memory to = memory;  // a copy that no store can change stays in registers; so below
     const std::size_t cells = box_.cells();
     const bool roomy = to.xyz != nullptr && points_ >= 2 * simd::lanes;
     const CellNotes notes{roomy ? to.xyz : nullptr, points_};
-    if (roomy) note_cells(notes);
+    if (roomy) note_cells(cloud, notes);
     for (std::size_t c = 0; c < cells; ++c) to.cell_end[c] = 0;
-    for_each_cell(notes, [&](std::size_t, std::size_t cell) { ++to.cell_end[cell]; });
+    for_each_cell(cloud, notes, [&](std::size_t, std::size_t cell) { ++to.cell_end[cell]; });
     counts_to_begins(to.cell_end, cells);
-    for_each_cell(
-        notes, [&](std::size_t index, std::size_t cell) { to.order[to.cell_end[cell]++] = static_cast<Index>(index); });
+    for_each_cell(cloud, notes, [&](std::size_t index, std::size_t cell) {
+      to.order[to.cell_end[cell]++] = static_cast<Index>(index);
+    });
     if (to.xyz != nullptr) copy_points(to.order, to.xyz);
   }
 
   [[nodiscard]] Status status() const noexcept {
     return points_ == 0 && status_ == Status::ok ? Status::empty_cloud : status_;
   }
-  [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_.size; }
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_size_; }
   [[nodiscard]] std::size_t size() const noexcept { return points_; }
   [[nodiscard]] std::size_t cells() const noexcept { return box_.cells(); }
 
   template <class Neighbors>
-  [[nodiscard]] Status gather(const Contents& contents, const Point& center, Radius radius,
+  [[nodiscard, gnu::always_inline]] Status gather(const Contents& contents, const Point& center, Radius radius,
                               Neighbors& out) const noexcept {
     clear(out, center);
     if (status() != Status::ok) return status();
@@ -140,11 +142,11 @@ class Grid {
   }
 
   /// sort() in less flash: one loop over the points counts, and the same one places.
-  void sort_by_two_passes(const Memory& to) const noexcept {
+  void sort_by_two_passes(const CloudView& cloud, const Memory& to) const noexcept {
     const std::size_t cells = box_.cells();
     std::memset(to.cell_end, 0, cells * sizeof(Index));
     for (int pass = 0; pass < 2; ++pass) {
-      for_each_valid(cloud_, [&](std::size_t index, const Point& p) {
+      for_each_valid(cloud, [&](std::size_t index, const Point& p) {
         Index& end = to.cell_end[box_.cell_of(p)];
         if (pass == 1) to.order[end] = static_cast<Index>(index);
         ++end;
@@ -153,19 +155,19 @@ class Grid {
     }
   }
 
-  [[nodiscard]] Status fit(float cell_size, const Memory& memory) noexcept {
-    const Status usable = validate(cloud_);
+  [[nodiscard]] Status fit(const CloudView& cloud, float cell_size, const Memory& memory) noexcept {
+    const Status usable = validate(cloud);
     if (usable != Status::ok) return usable;
     if (validate(Radius(cell_size)) != Status::ok) return Status::bad_radius;
     if (memory.cell_capacity == 0) return Status::out_of_memory;
 
     Extent extent;
-    const std::size_t valid = measure(cloud_, extent);
+    const std::size_t valid = measure(cloud, extent);
     if (valid == 0) return Status::empty_cloud;
     constexpr std::size_t most = static_cast<Index>(~Index{0});
-    if (valid > memory.point_capacity || cloud_.size > most) return Status::out_of_memory;
+    if (valid > memory.point_capacity || cloud.size > most) return Status::out_of_memory;
 
-    if constexpr (!Small) leave_outliers_out(cloud_, valid, cell_size, memory.cell_end, memory.cell_capacity, extent);
+    if constexpr (!Small) leave_outliers_out(cloud, valid, cell_size, memory.cell_end, memory.cell_capacity, extent);
     fit_box(extent, cell_size, memory.cell_capacity, box_);
     if constexpr (!Small) box_.note_rounding(extent);
     points_ = valid;
@@ -181,14 +183,14 @@ class Grid {
     [[nodiscard]] float* places() const noexcept { return cells + 2 * size - simd::lanes; }
   };
 
-  void note_cells(const CellNotes& notes) const noexcept {
+  void note_cells(const CloudView& cloud, const CellNotes& notes) const noexcept {
     const GridBox box = box_;
     float* cell = notes.cells;
     float* place = notes.places();
     std::uint32_t lane_numbers[simd::lanes];
     for (std::uint32_t k = 0; k < simd::lanes; ++k) lane_numbers[k] = k;
     const simd::I32 lane = simd::load(lane_numbers);
-    for_each_valid_register(cloud_, [&](std::size_t i, const PointLanes& points, simd::Mask valid) {
+    for_each_valid_register(cloud, [&](std::size_t i, const PointLanes& points, simd::Mask valid) {
       const simd::Packing packing = simd::packing(valid);
       const simd::I32 index = simd::all_int(static_cast<std::int32_t>(i)) + lane;
       simd::store(cell, simd::from_bits(box.cells_of(points)), packing);
@@ -200,10 +202,10 @@ class Grid {
 
   /// Calls f(index, cell) for each valid point, in order.
   template <class Function>
-  void for_each_cell(const CellNotes& notes, Function f) const noexcept {
+  void for_each_cell(const CloudView& cloud, const CellNotes& notes, Function f) const noexcept {
     if (notes.cells == nullptr) {
       const GridBox box = box_;
-      for_each_valid(cloud_, [&](std::size_t index, const Point& p) { f(index, box.cell_of(p)); });
+      for_each_valid(cloud, [&](std::size_t index, const Point& p) { f(index, box.cell_of(p)); });
       return;
     }
     const auto integer = [](const float* note) {
@@ -220,13 +222,13 @@ class Grid {
     const std::size_t n = points_;
     std::size_t i = 0;
     for (; i + simd::lanes <= n; i += simd::lanes) {
-      const PointLanes p = read_lanes(cloud_.points, [&](std::size_t lane) { return order[i + lane]; });
+      const PointLanes p = read_lanes(channel_, [&](std::size_t lane) { return order[i + lane]; });
       simd::store(xyz + i, p.x);
       simd::store(xyz + n + i, p.y);
       simd::store(xyz + 2 * n + i, p.z);
     }
     for (; i < n; ++i) {
-      const Point p = point(cloud_, order[i]);
+      const Point p = read(channel_, order[i]);
       xyz[i] = p.x;
       xyz[n + i] = p.y;
       xyz[2 * n + i] = p.z;
@@ -251,11 +253,12 @@ class Grid {
       }
     }
     for (std::size_t i = begin; i < end; ++i) {
-      offer(out, point(cloud_, contents.order[i]), contents.order[i], center, radius_squared);
+      offer(out, read(channel_, contents.order[i]), contents.order[i], center, radius_squared);
     }
   }
 
-  CloudView cloud_;
+  Float3Channel channel_;  // the cloud's points, borrowed
+  std::size_t cloud_size_;
   GridBox box_;
   std::size_t points_;
   Status status_;

@@ -45,7 +45,7 @@ class GridSearch {
       xyz_.resize(3 * next.size());
     }
     if (cell_end_.size() < next.cells()) cell_end_.resize(next.cells());
-    next.sort({order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cell_end_.size()});
+    next.sort(cloud, {order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cell_end_.size()});
     grid_ = next;
     return Status::ok;
   }
