@@ -140,7 +140,7 @@ void print_recognition(const Input& input) {
                               extract(input.cloud, search, keypoints, 0.9f * input.radius.value, other)};
   hash.add(described, 2);
   std::vector<Match> matches;
-  std::vector<Correspondence> correspondences;
+  std::vector<MatchedPair> correspondences;
   const Status matched[] = {nearest(rows_of(view), rows_of(other), 3, matches),
                             reciprocal_correspondences(rows_of(view), rows_of(other), correspondences)};
   hash.add(matched, 2);
@@ -149,10 +149,10 @@ void print_recognition(const Input& input) {
   hash.print(input.name, "matches");
 
   std::vector<PointPair> pairs;
-  for (const Correspondence& c : correspondences) {
+  for (const MatchedPair& c : correspondences) {
     const Point& p = keypoints[c.target].position;
-    const float y = rounded(0.8f * p.x) - rounded(0.6f * p.z);
-    const float z = rounded(0.6f * p.x) + rounded(0.8f * p.z);
+    const float y = extend::unfused(0.8f * p.x) - extend::unfused(0.6f * p.z);
+    const float z = extend::unfused(0.6f * p.x) + extend::unfused(0.8f * p.z);
     pairs.push_back({keypoints[c.source].position, {1.0f - p.y, y, z}});
   }
   Pose fitted, estimated;
@@ -167,8 +167,8 @@ void print_recognition(const Input& input) {
 
   Recognizer recognizer(RecognizerOptions{0.05f, 2, 8});
   std::vector<Hypothesis> objects;
-  const Status recognized[] = {recognizer.train(view, keypoints, {0.0f, 0.0f, 1.0f}, "scene", "a"),
-                               recognizer.recognize(other, keypoints, objects)};
+  const Status recognized[] = {train(recognizer, view, {0.0f, 0.0f, 1.0f}, "scene", "a"),
+                               recognize(recognizer, other, objects)};
   Hash recognition;
   recognition.add(recognized, 2);
   recognition.add(objects.data(), objects.size());
