@@ -50,6 +50,7 @@ template <class D>
 void print_descriptors(const Input& input, const GridSearch& search, const char* array) {
   if (D::needs_colors && !has_colors(input.cloud)) return;
   if (D::needs_normals && !has_normals(input.cloud)) return;
+  if (D::needs_intensities && !has_intensities(input.cloud)) return;
   Hash hash;
   std::vector<float> values(D::size);
   const auto add = [&](Status status) {
@@ -122,6 +123,7 @@ void print_all(const Input& input) {
   print_descriptors<Scsh<Shape, Color, 15, PublishedVoting, LinearRadius, PclLab>>(input, search, "scsh336_pcl");
   print_descriptors<Ssh<Shape, MultilinearVoting, LogRadius<>>>(input, search, "ssh96_multilinear_log");
   print_descriptors<Scsh<Shape, Color, 15, MultilinearVoting, LogRadius<>>>(input, search, "scsh336_multilinear_log");
+  print_descriptors<IntensityShape336>(input, search, "intensity_shape336");
   print_descriptors<Shot352>(input, search, "shot352");
   print_descriptors<Cshot1344>(input, search, "cshot1344");
   print_descriptors<PclShot352>(input, search, "shot352_pcl");
@@ -181,6 +183,10 @@ void print_scene() {
   Hash hash;
   hash.add(scene.xyz.data(), scene.xyz.size());
   hash.print(input.name, "points");
+  Hash intensities;
+  intensities.add(scene.intensity.data(), scene.intensity.size());
+  intensities.print(input.name, "intensities");
+  input.cloud = with_intensities(input.cloud, scene.intensity.data());
   const Status status = sample_uniform(input.cloud, 0.03f, input.keypoints);
   Hash keypoints;
   keypoints.add(&status, 1);
