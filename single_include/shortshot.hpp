@@ -81,26 +81,19 @@
 #pragma push_macro("I")
 #undef I
 
-// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initializer, no
-// libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
-// <type_traits> and <utility> of the standard library.
-#ifndef SHORTSHOT_KERNEL_HPP
-#define SHORTSHOT_KERNEL_HPP
-
-// shortshot/frame/normal.hpp: the surface normal of a gathered neighborhood.
-#ifndef SHORTSHOT_FRAME_NORMAL_HPP
-#define SHORTSHOT_FRAME_NORMAL_HPP
+// shortshot/cloud/view_of.hpp: views of containers of structs, PCL's clouds among them, by their members' names.
+//
+// No other library is included: whatever has the members is understood. A point needs float x, y, z (in that or any
+// order, with any padding), for color one-byte r, g, b (in any order: PCL keeps b, g, r, a), and for a normal float
+// normal_x, normal_y, normal_z, which may also stand in structs of their own; for an intensity a float, a std::uint8_t
+// or a std::uint16_t of that name (pcl::PointXYZI).
+#ifndef SHORTSHOT_CLOUD_VIEW_OF_HPP
+#define SHORTSHOT_CLOUD_VIEW_OF_HPP
 
 #include <cstddef>
-#include <cstdint>
-
-// shortshot/base/fixed_point.hpp: sums that do not depend on their order.
-//
-// Float additions round, so a sum depends on the order of its terms: on the search that found the neighbors, on the
-// number of lanes, on the number of threads. Every sum over neighbors in this library adds numbers that were first
-// scaled by a power of two and rounded to integers: exact additions, the same bits whatever the order.
-#ifndef SHORTSHOT_BASE_FIXED_POINT_HPP
-#define SHORTSHOT_BASE_FIXED_POINT_HPP
+#include <iterator>
+#include <type_traits>
+#include <utility>
 
 // shortshot/config.hpp: the macros the library sets. There is none for you to set: options are template parameters.
 //
@@ -208,6 +201,552 @@ using namespace extend;
 }
 }  // namespace shortshot
 #endif  // SHORTSHOT_CONFIG_HPP
+
+// shortshot/cloud/cloud.hpp: the only door for point clouds. A CloudView borrows the user's own memory, whatever its
+// layout.
+#ifndef SHORTSHOT_CLOUD_CLOUD_HPP
+#define SHORTSHOT_CLOUD_CLOUD_HPP
+
+#include <cstdint>
+#include <cstring>
+
+// shortshot/status.hpp: the one way in which the library reports that something is wrong.
+#ifndef SHORTSHOT_STATUS_HPP
+#define SHORTSHOT_STATUS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// Result of every call that can fail. Whatever is not `ok` comes with a zeroed output, never with NaN.
+// (version 14 of it does not know attributes of enumerations)
+// clang-format off
+enum class [[nodiscard]] Status : std::uint8_t {
+  ok,
+  empty_cloud,         ///< the cloud has no point, or no point with three finite coordinates
+  bad_view,            ///< the view's memory cannot be what it says (null pointer, field outside the point, too short)
+  bad_radius,          ///< a radius is not a finite number above zero, or its square leaves the range of float
+  bad_keypoint,        ///< a key point's index lies outside the cloud
+  invalid_keypoint,    ///< a key point's position is not finite
+  missing_colors,      ///< the descriptor needs colors and the cloud has none
+  missing_normals,     ///< the descriptor needs normals and the cloud has none
+  too_few_neighbors,   ///< no neighbor to describe, or fewer than five for a local reference frame or for SHOT
+  too_many_neighbors,  ///< the neighborhood does not fit the workspace; Neighborhood::found says what it takes
+  ambiguous_frame,     ///< collinear or symmetric neighborhood: two principal axes cannot be told apart
+  bad_frame,           ///< a given frame is not orthonormal, or not finite
+  bad_viewpoint,       ///< a viewpoint is not finite
+  bad_leaf,            ///< a voxel size is not a finite number above zero
+  out_of_memory,       ///< caller-provided memory is too small for the cloud
+  not_organized,       ///< the cloud is no image of a pinhole camera, so it has no image window to search
+  bad_rows,            ///< rows of descriptors that do not fit each other, or null pointers
+  bad_option,          ///< an option is outside of the range that its docstring gives
+  too_few_pairs,       ///< fewer than three correspondences
+  no_pose,             ///< no rigid motion that at least three correspondences agree on
+  not_trained,         ///< the recognizer has no training view with a descriptor
+  not_a_model,         ///< the bytes are no recognizer's
+  other_version,       ///< the model was written by a version with another format
+  other_descriptor,    ///< descriptors of another layout than the model was trained with
+  damaged_model,       ///< the model is truncated, or its checksum or contents are wrong
+  no_file,             ///< a file cannot be read or written
+  missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
+  unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
+};
+// clang-format on
+
+inline constexpr int status_count = static_cast<int>(Status::unsure_frame) + 1;
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// One English sentence for a status. Static storage; never null.
+[[nodiscard]] constexpr const char* message(Status status) noexcept {
+  switch (status) {
+    case Status::ok: return "ok";
+    case Status::empty_cloud: return "the cloud has no valid point";
+    case Status::bad_view: return "the cloud view does not fit its memory";
+    case Status::bad_radius: return "a radius must be finite and above zero";
+    case Status::bad_keypoint: return "the key point's index lies outside the cloud";
+    case Status::invalid_keypoint: return "the key point is not finite";
+    case Status::missing_colors: return "the descriptor needs colors and the cloud has none";
+    case Status::missing_normals: return "the descriptor needs normals and the cloud has none";
+    case Status::too_few_neighbors: return "too few neighbors within the radius";
+    case Status::too_many_neighbors: return "more neighbors than the workspace can hold";
+    case Status::ambiguous_frame: return "the neighborhood is too symmetric for a local reference frame";
+    case Status::bad_frame: return "the given frame is not orthonormal";
+    case Status::bad_viewpoint: return "the viewpoint is not finite";
+    case Status::bad_leaf: return "a voxel size must be finite and above zero";
+    case Status::out_of_memory: return "the memory provided is too small";
+    case Status::not_organized: return "the cloud is not an image of a pinhole camera";
+    case Status::bad_rows: return "the rows of descriptors do not fit each other";
+    case Status::bad_option: return "an option is out of its range";
+    case Status::too_few_pairs: return "a pose takes three correspondences or more";
+    case Status::no_pose: return "no rigid motion fits three correspondences or more";
+    case Status::not_trained: return "the recognizer has no training view";
+    case Status::not_a_model: return "not a recognizer's model";
+    case Status::other_version: return "the model's format is of another version";
+    case Status::other_descriptor: return "the model was trained with another descriptor";
+    case Status::damaged_model: return "the model is damaged";
+    case Status::no_file: return "the file cannot be read or written";
+    case Status::missing_intensities: return "the descriptor needs intensities and there are none";
+    case Status::unsure_frame: return "other key points have surer frames";
+  }
+  return "unknown status";
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_STATUS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// Three float coordinates per point: where each one of point 0 lies, and how far it is to the same one of point 1.
+/// Covers x y z x y z ..., arrays of structs with padding, and separate x, y, z arrays. No alignment is assumed.
+struct Float3Channel {
+  const unsigned char* x;
+  const unsigned char* y;
+  const unsigned char* z;
+  std::size_t stride_bytes;
+};
+
+/// Three color bytes per point, sRGB. The three pointers express the order r g b, b g r (PCL, packed floats) or
+/// planes.
+struct ColorChannel {
+  const unsigned char* r;
+  const unsigned char* g;
+  const unsigned char* b;
+  std::size_t stride_bytes;
+};
+
+/// How the numbers of a ScalarChannel are stored.
+enum class ScalarType : std::uint8_t { float32, uint8, uint16 };
+
+/// One number per point, as the intensity of a lidar's or a time-of-flight camera's echo.
+struct ScalarChannel {
+  const unsigned char* value;
+  std::size_t stride_bytes;
+  ScalarType type;
+};
+
+/// What a descriptor may need of a cloud beyond its points; `own`: something that no view has, but the caller.
+enum class Channel : std::uint8_t { colors, normals, intensities, own };
+
+/// A borrowed point cloud: nothing is copied, nothing is owned, the memory must outlive the view.
+/// Positions in meters (any unit works if the radius has the same). Points that are not finite are never neighbors.
+/// A channel whose first pointer is null is absent. `width * height == size`; height is 1 for unorganized clouds.
+/// Trivial type with plain members, the same in every translation unit; reading it is thread-safe.
+struct CloudView {
+  Float3Channel points;
+  ColorChannel colors;
+  Float3Channel normals;
+  ScalarChannel intensities;
+  std::size_t size;
+  std::size_t width;
+  std::size_t height;
+};
+
+struct Point {
+  float x, y, z;
+};
+
+/// A surface normal: a unit vector, or NaN in all three where a point has none.
+struct SurfaceNormal {
+  float x, y, z;
+};
+
+/// An sRGB color.
+struct Rgb {
+  std::uint8_t r, g, b;
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+[[nodiscard]] inline bool has_colors(const CloudView& cloud) noexcept { return cloud.colors.r != nullptr; }
+[[nodiscard]] inline bool has_normals(const CloudView& cloud) noexcept { return cloud.normals.x != nullptr; }
+[[nodiscard]] inline bool has_intensities(const CloudView& cloud) noexcept {
+  return cloud.intensities.value != nullptr;
+}
+
+/// Is this a view that can be read at all? Every entry point asks once.
+[[nodiscard]] inline Status validate(const CloudView& cloud) noexcept {
+  if (cloud.size == 0) return Status::empty_cloud;
+  if (cloud.size > 0xFFFFFFFFu) return Status::bad_view;  // indices have 32 bits
+  if (cloud.points.x == nullptr || cloud.points.y == nullptr || cloud.points.z == nullptr) return Status::bad_view;
+  if (has_colors(cloud) && (cloud.colors.g == nullptr || cloud.colors.b == nullptr)) return Status::bad_view;
+  if (has_normals(cloud) && (cloud.normals.y == nullptr || cloud.normals.z == nullptr)) return Status::bad_view;
+  return Status::ok;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Has the cloud what a source reads?
+[[nodiscard]] inline bool has_channel(const CloudView& cloud, Channel channel) noexcept {
+  switch (channel) {
+    case Channel::colors: return has_colors(cloud);
+    case Channel::normals: return has_normals(cloud);
+    case Channel::intensities: return has_intensities(cloud);
+    case Channel::own: return true;
+  }
+  return true;
+}
+
+/// What to say where it has not.
+[[nodiscard]] constexpr Status missing(Channel channel) noexcept {
+  return channel == Channel::colors    ? Status::missing_colors
+         : channel == Channel::normals ? Status::missing_normals
+                                       : Status::missing_intensities;
+}
+
+/// A channel whose x, y and z follow each other by `step` bytes; absent if there is no memory.
+[[nodiscard]] inline Float3Channel float3_channel(const float* first, std::size_t step, std::size_t stride) noexcept {
+  if (first == nullptr) return {};
+  const auto* x = reinterpret_cast<const unsigned char*>(first);
+  return {x, x + step, x + 2 * step, stride};
+}
+
+[[nodiscard]] inline ColorChannel color_channel(const unsigned char* r, std::size_t step, std::size_t stride) noexcept {
+  if (r == nullptr) return {};
+  return {r, r + step, r + 2 * step, stride};
+}
+
+/// float32, uint8 or uint16: how a ScalarChannel reads a Scalar.
+template <class Scalar>
+inline constexpr bool is_channel_scalar =
+    std::is_same<Scalar, float>::value || std::is_same<Scalar, std::uint8_t>::value ||
+    std::is_same<Scalar, std::uint16_t>::value;
+
+template <class Scalar>
+[[nodiscard]] ScalarChannel scalar_channel(const Scalar* first, std::size_t stride) noexcept {
+  static_assert(is_channel_scalar<Scalar>, "Intensities are supported as float, std::uint8_t and std::uint16_t");
+  if (first == nullptr) return {};
+  return {reinterpret_cast<const unsigned char*>(first), stride,
+          sizeof(Scalar) == 4   ? ScalarType::float32
+          : sizeof(Scalar) == 2 ? ScalarType::uint16
+                                : ScalarType::uint8};
+}
+
+/// A view of nothing, and of more than nothing: bad_view everywhere.
+[[nodiscard]] inline CloudView unusable_view() noexcept {
+  CloudView view{};
+  view.size = 1;
+  return view;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// View of `count` points x y z (floats). `stride_bytes` is the distance between points.
+[[nodiscard]] inline CloudView view_xyz(const float* xyz, std::size_t count,
+                                        std::size_t stride_bytes = 3 * sizeof(float)) noexcept {
+  CloudView view{};
+  view.points = detail::float3_channel(xyz, sizeof(float), stride_bytes);
+  view.size = count;
+  view.width = count;
+  view.height = 1;
+  return view;
+}
+
+/// View of `count` points x y z (floats) and their colors r g b (bytes), each with its own stride.
+[[nodiscard]] inline CloudView view_xyz_rgb(const float* xyz, const std::uint8_t* rgb, std::size_t count,
+                                            std::size_t xyz_stride_bytes = 3 * sizeof(float),
+                                            std::size_t rgb_stride_bytes = 3) noexcept {
+  CloudView view = view_xyz(xyz, count, xyz_stride_bytes);
+  view.colors = detail::color_channel(rgb, 1, rgb_stride_bytes);
+  return view;
+}
+
+/// The same cloud with `cloud.size` normals x y z (floats), borrowed like the points. `stride_bytes` is the distance
+/// between normals.
+[[nodiscard]] inline CloudView with_normals(CloudView cloud, const SurfaceNormal* normals,
+                                            std::size_t stride_bytes = sizeof(SurfaceNormal)) noexcept {
+  cloud.normals = detail::float3_channel(normals == nullptr ? nullptr : &normals->x, sizeof(float), stride_bytes);
+  return cloud;
+}
+
+/// The same cloud with `cloud.size` intensities (float, std::uint8_t or std::uint16_t), borrowed like the points.
+/// `stride_bytes` is the distance between two of them.
+template <class Scalar>
+[[nodiscard]] CloudView with_intensities(CloudView cloud, const Scalar* intensities,
+                                         std::size_t stride_bytes = sizeof(Scalar)) noexcept {
+  cloud.intensities = detail::scalar_channel(intensities, stride_bytes);
+  return cloud;
+}
+
+/// The same cloud as an image of `width * height` pixels, row by row, for OrganizedSearch.
+[[nodiscard]] inline CloudView organized(CloudView cloud, std::size_t width, std::size_t height) noexcept {
+  cloud.width = width;
+  cloud.height = height;
+  return cloud;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_CLOUD_CLOUD_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+template <class P, class = void>
+struct HasRgb : std::false_type {};
+template <class P>
+struct HasRgb<P, std::void_t<decltype(P::r), decltype(P::g), decltype(P::b)>>
+    : std::bool_constant<sizeof(P::r) == 1 && sizeof(P::g) == 1 && sizeof(P::b) == 1> {};
+
+template <class P, class = void>
+struct HasNormal : std::false_type {};
+template <class P>
+struct HasNormal<P, std::void_t<decltype(P::normal_x), decltype(P::normal_y), decltype(P::normal_z)>>
+    : std::bool_constant<std::is_same<std::remove_cv_t<decltype(P::normal_x)>, float>::value &&
+                         std::is_same<std::remove_cv_t<decltype(P::normal_y)>, float>::value &&
+                         std::is_same<std::remove_cv_t<decltype(P::normal_z)>, float>::value> {};
+
+template <class P, class = void>
+struct HasIntensity : std::false_type {};
+template <class P>
+struct HasIntensity<P, std::void_t<decltype(P::intensity)>>
+    : std::bool_constant<is_channel_scalar<std::remove_cv_t<decltype(P::intensity)>>> {};
+
+template <class C, class = void>
+struct HasPoints : std::false_type {};
+template <class C>
+struct HasPoints<C, std::void_t<decltype(std::declval<const C&>().points.data())>> : std::true_type {};
+
+/// view_of()'s second argument is a container, unless it is a count.
+template <class C>
+using IfContainer = std::enable_if_t<!std::is_convertible<C, std::size_t>::value>;
+
+/// The structs in a container, or in the `points` of a pcl::PointCloud-shaped object.
+template <class C>
+[[nodiscard]] const auto& structs_of(const C& container) noexcept {
+  if constexpr (HasPoints<C>::value) {
+    return container.points;
+  } else {
+    return container;
+  }
+}
+
+template <class Member>
+[[nodiscard]] const unsigned char* bytes_of(const Member& member) noexcept {
+  return reinterpret_cast<const unsigned char*>(&member);
+}
+
+template <class P>
+[[nodiscard]] Float3Channel normals_of(const P* structs, std::size_t count) noexcept {
+  if (structs == nullptr || count == 0) return {};
+  return {bytes_of(structs->normal_x), bytes_of(structs->normal_y), bytes_of(structs->normal_z), sizeof(P)};
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// View of `count` structs with members x, y, z and, if they have them, r, g, b; normal_x, normal_y, normal_z; and
+/// intensity.
+template <class P>
+[[nodiscard]] CloudView view_of(const P* points, std::size_t count) noexcept {
+  static_assert(std::is_same<std::remove_cv_t<decltype(P::x)>, float>::value &&
+                    std::is_same<std::remove_cv_t<decltype(P::y)>, float>::value &&
+                    std::is_same<std::remove_cv_t<decltype(P::z)>, float>::value,
+                "view_of() supports points with float members x, y and z");
+  CloudView view{};
+  view.size = count;
+  view.width = count;
+  view.height = 1;
+  if (points == nullptr || count == 0) return view;  // to be refused by validate()
+  view.points = {detail::bytes_of(points->x), detail::bytes_of(points->y), detail::bytes_of(points->z), sizeof(P)};
+  if constexpr (detail::HasRgb<P>::value) {
+    view.colors = {detail::bytes_of(points->r), detail::bytes_of(points->g), detail::bytes_of(points->b), sizeof(P)};
+  }
+  if constexpr (detail::HasNormal<P>::value) view.normals = detail::normals_of(points, count);
+  if constexpr (detail::HasIntensity<P>::value) return with_intensities(view, &points->intensity, sizeof(P));
+  return view;
+}
+
+/// View of an array, a std::vector or anything else with data() and size(); or of a pcl::PointCloud-shaped object:
+/// `points` with data() and size(), and `width` and `height`.
+template <class Container>
+[[nodiscard]] CloudView view_of(const Container& cloud) noexcept {
+  const auto& structs = detail::structs_of(cloud);
+  const CloudView view = view_of(std::data(structs), std::size(structs));
+  if constexpr (detail::HasPoints<Container>::value) {
+    if (static_cast<std::size_t>(cloud.width) * cloud.height == view.size) {
+      return organized(view, cloud.width, cloud.height);
+    }
+  }
+  return view;
+}
+
+/// The same with normals from a second container of structs with members normal_x, normal_y, normal_z, such as a
+/// pcl::PointCloud<pcl::Normal>; normals that the points have themselves are not read. bad_view if the numbers of
+/// structs differ.
+template <class Container, class Normals, class = detail::IfContainer<Normals>>
+[[nodiscard]] CloudView view_of(const Container& cloud, const Normals& normals) noexcept {
+  const auto& structs = detail::structs_of(normals);
+  using Struct = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(structs))>>;
+  static_assert(detail::HasNormal<Struct>::value,
+                "view_of() supports normals with float members normal_x, normal_y and normal_z");
+  CloudView view = view_of(cloud);
+  if (std::size(structs) != view.size) return detail::unusable_view();
+  view.normals = detail::normals_of(std::data(structs), std::size(structs));
+  return view;
+}
+
+/// A container that dies at the end of the statement cannot be viewed.
+template <class Container>
+CloudView view_of(const Container&& cloud) = delete;
+template <class Container, class Normals, class = detail::IfContainer<Normals>>
+CloudView view_of(const Container&& cloud, const Normals& normals) = delete;
+template <class Container, class Normals, class = detail::IfContainer<Normals>>
+CloudView view_of(const Container& cloud, const Normals&& normals) = delete;
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_CLOUD_VIEW_OF_HPP
+
+// shortshot/cloud/view_point_cloud2.hpp: views of sensor_msgs/PointCloud2-shaped messages, without including ROS.
+#ifndef SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
+#define SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// PointField datatypes that can be read in place.
+inline constexpr int field_uint8 = 2;
+inline constexpr int field_uint16 = 4;
+inline constexpr int field_uint32 = 6;
+inline constexpr int field_float32 = 7;
+
+[[nodiscard]] inline bool is_little_endian() noexcept {
+  const std::uint16_t one = 1;
+  unsigned char first = 0;
+  std::memcpy(&first, &one, 1);
+  return first == 1;
+}
+
+template <class Name>
+[[nodiscard]] bool is_named(const Name& name, const char* text) noexcept {
+  return name == text;
+}
+
+/// Offset of a field with this name and a readable type, or -1.
+template <class Message>
+[[nodiscard]] std::int64_t offset_of(const Message& message, const char* name, bool packed_color) noexcept {
+  for (const auto& field : message.fields) {
+    if (!is_named(field.name, name)) continue;
+    const int type = static_cast<int>(field.datatype);
+    const bool readable = type == field_float32 || (packed_color && type == field_uint32);
+    const bool inside = static_cast<std::uint64_t>(field.offset) + 4 <= static_cast<std::uint64_t>(message.point_step);
+    return readable && inside ? static_cast<std::int64_t>(field.offset) : -1;
+  }
+  return -1;
+}
+
+/// The channel of a field `intensity` of FLOAT32, UINT8 or UINT16; absent if there is none.
+template <class Message>
+[[nodiscard]] ScalarChannel intensities_of(const Message& message, const unsigned char* data) noexcept {
+  for (const auto& field : message.fields) {
+    if (!is_named(field.name, "intensity")) continue;
+    const int type = static_cast<int>(field.datatype);
+    const bool readable = type == field_float32 || type == field_uint8 || type == field_uint16;
+    const std::uint64_t size_bytes = type == field_float32 ? 4 : type == field_uint16 ? 2 : 1;
+    const std::uint64_t end = static_cast<std::uint64_t>(field.offset) + size_bytes;
+    if (!readable || end > static_cast<std::uint64_t>(message.point_step)) return {};
+    const ScalarType scalar = type == field_float32  ? ScalarType::float32
+                              : type == field_uint16 ? ScalarType::uint16
+                                                     : ScalarType::uint8;
+    return {data + field.offset, static_cast<std::size_t>(message.point_step), scalar};
+  }
+  return {};
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// View of a message with members data (data(), size()), fields (name, offset, datatype), point_step, row_step, width,
+/// height and is_bigendian. Fields x, y, z must be FLOAT32; color is a field `rgb` or `rgba`, a FLOAT32 or UINT32 with
+/// 0xAARRGGBB packed into it; normals are FLOAT32 fields normal_x, normal_y, normal_z; an intensity is a FLOAT32,
+/// UINT8 or UINT16. The view borrows the message's bytes.
+///
+/// Statuses: empty_cloud (no point); bad_view (and an empty view): no x, y or z of that type, a field outside
+/// point_step, data shorter than width * height points, padded rows, or the other byte order. No allocation.
+template <class Message>
+[[nodiscard]] Status view_point_cloud2(const Message& message, CloudView& view) noexcept {
+  view = CloudView{};
+  const std::int64_t x = detail::offset_of(message, "x", false);
+  const std::int64_t y = detail::offset_of(message, "y", false);
+  const std::int64_t z = detail::offset_of(message, "z", false);
+  if (x < 0 || y < 0 || z < 0) return Status::bad_view;
+  if (static_cast<bool>(message.is_bigendian) == detail::is_little_endian()) return Status::bad_view;
+
+  const auto step = static_cast<std::size_t>(message.point_step);
+  const auto width = static_cast<std::size_t>(message.width);
+  const auto height = static_cast<std::size_t>(message.height);
+  if (height > 1 && static_cast<std::uint64_t>(message.row_step) != static_cast<std::uint64_t>(width) * step) {
+    return Status::bad_view;
+  }
+  if (width == 0 || height == 0) return Status::empty_cloud;
+  if (message.data.size() / step / width < height) return Status::bad_view;
+
+  const auto* data = reinterpret_cast<const unsigned char*>(message.data.data());
+  view.points = {data + x, data + y, data + z, step};
+  view.size = width * height;
+  view.width = width;
+  view.height = height;
+
+  std::int64_t color = detail::offset_of(message, "rgb", true);
+  if (color < 0) color = detail::offset_of(message, "rgba", true);
+  if (color >= 0) {
+    const unsigned char* packed = data + color;
+    const bool little = detail::is_little_endian();
+    view.colors = {packed + (little ? 2 : 1), packed + (little ? 1 : 2), packed + (little ? 0 : 3), step};
+  }
+  view.intensities = detail::intensities_of(message, data);
+  const std::int64_t normal_x = detail::offset_of(message, "normal_x", false);
+  const std::int64_t normal_y = detail::offset_of(message, "normal_y", false);
+  const std::int64_t normal_z = detail::offset_of(message, "normal_z", false);
+  if (normal_x >= 0 && normal_y >= 0 && normal_z >= 0) {
+    view.normals = {data + normal_x, data + normal_y, data + normal_z, step};
+  }
+  return Status::ok;
+}
+
+/// A message that dies at the end of the statement cannot be viewed.
+template <class Message>
+Status view_point_cloud2(const Message&& message, CloudView& view) = delete;
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
+
+// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initializer, no
+// libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
+// <type_traits> and <utility> of the standard library.
+#ifndef SHORTSHOT_KERNEL_HPP
+#define SHORTSHOT_KERNEL_HPP
+
+// shortshot/frame/normal.hpp: the surface normal of a gathered neighborhood.
+#ifndef SHORTSHOT_FRAME_NORMAL_HPP
+#define SHORTSHOT_FRAME_NORMAL_HPP
+
+// shortshot/base/fixed_point.hpp: sums that do not depend on their order.
+//
+// Float additions round, so a sum depends on the order of its terms: on the search that found the neighbors, on the
+// number of lanes, on the number of threads. Every sum over neighbors in this library adds numbers that were first
+// scaled by a power of two and rounded to integers: exact additions, the same bits whatever the order.
+#ifndef SHORTSHOT_BASE_FIXED_POINT_HPP
+#define SHORTSHOT_BASE_FIXED_POINT_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -823,8 +1362,6 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
 #ifndef SHORTSHOT_BASE_SIMD_SCALAR_HPP
 #define SHORTSHOT_BASE_SIMD_SCALAR_HPP
 
-#include <cstring>
-
 namespace shortshot::extend::simd {
 inline namespace SHORTSHOT_CODE {
 
@@ -1027,9 +1564,6 @@ template <class Function>
 #ifndef SHORTSHOT_BASE_UNROLL_HPP
 #define SHORTSHOT_BASE_UNROLL_HPP
 
-#include <type_traits>
-#include <utility>
-
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
@@ -1208,293 +1742,6 @@ template <int N = 3>
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_BASE_SYMMETRIC_EIGEN_HPP
-
-// shortshot/cloud/cloud.hpp: the only door for point clouds. A CloudView borrows the user's own memory, whatever its
-// layout.
-#ifndef SHORTSHOT_CLOUD_CLOUD_HPP
-#define SHORTSHOT_CLOUD_CLOUD_HPP
-
-#include <cstring>
-
-// shortshot/status.hpp: the one way in which the library reports that something is wrong.
-#ifndef SHORTSHOT_STATUS_HPP
-#define SHORTSHOT_STATUS_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// Result of every call that can fail. Whatever is not `ok` comes with a zeroed output, never with NaN.
-// (version 14 of it does not know attributes of enumerations)
-// clang-format off
-enum class [[nodiscard]] Status : std::uint8_t {
-  ok,
-  empty_cloud,         ///< the cloud has no point, or no point with three finite coordinates
-  bad_view,            ///< the view's memory cannot be what it says (null pointer, field outside the point, too short)
-  bad_radius,          ///< a radius is not a finite number above zero, or its square leaves the range of float
-  bad_keypoint,        ///< a key point's index lies outside the cloud
-  invalid_keypoint,    ///< a key point's position is not finite
-  missing_colors,      ///< the descriptor needs colors and the cloud has none
-  missing_normals,     ///< the descriptor needs normals and the cloud has none
-  too_few_neighbors,   ///< no neighbor to describe, or fewer than five for a local reference frame or for SHOT
-  too_many_neighbors,  ///< the neighborhood does not fit the workspace; Neighborhood::found says what it takes
-  ambiguous_frame,     ///< collinear or symmetric neighborhood: two principal axes cannot be told apart
-  bad_frame,           ///< a given frame is not orthonormal, or not finite
-  bad_viewpoint,       ///< a viewpoint is not finite
-  bad_leaf,            ///< a voxel size is not a finite number above zero
-  out_of_memory,       ///< caller-provided memory is too small for the cloud
-  not_organized,       ///< the cloud is no image of a pinhole camera, so it has no image window to search
-  bad_rows,            ///< rows of descriptors that do not fit each other, or null pointers
-  bad_option,          ///< an option is outside of the range that its docstring gives
-  too_few_pairs,       ///< fewer than three correspondences
-  no_pose,             ///< no rigid motion that at least three correspondences agree on
-  not_trained,         ///< the recognizer has no training view with a descriptor
-  not_a_model,         ///< the bytes are no recognizer's
-  other_version,       ///< the model was written by a version with another format
-  other_descriptor,    ///< descriptors of another layout than the model was trained with
-  damaged_model,       ///< the model is truncated, or its checksum or contents are wrong
-  no_file,             ///< a file cannot be read or written
-  missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
-  unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
-};
-// clang-format on
-
-inline constexpr int status_count = static_cast<int>(Status::unsure_frame) + 1;
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
-/// One English sentence for a status. Static storage; never null.
-[[nodiscard]] constexpr const char* message(Status status) noexcept {
-  switch (status) {
-    case Status::ok: return "ok";
-    case Status::empty_cloud: return "the cloud has no valid point";
-    case Status::bad_view: return "the cloud view does not fit its memory";
-    case Status::bad_radius: return "a radius must be finite and above zero";
-    case Status::bad_keypoint: return "the key point's index lies outside the cloud";
-    case Status::invalid_keypoint: return "the key point is not finite";
-    case Status::missing_colors: return "the descriptor needs colors and the cloud has none";
-    case Status::missing_normals: return "the descriptor needs normals and the cloud has none";
-    case Status::too_few_neighbors: return "too few neighbors within the radius";
-    case Status::too_many_neighbors: return "more neighbors than the workspace can hold";
-    case Status::ambiguous_frame: return "the neighborhood is too symmetric for a local reference frame";
-    case Status::bad_frame: return "the given frame is not orthonormal";
-    case Status::bad_viewpoint: return "the viewpoint is not finite";
-    case Status::bad_leaf: return "a voxel size must be finite and above zero";
-    case Status::out_of_memory: return "the memory provided is too small";
-    case Status::not_organized: return "the cloud is not an image of a pinhole camera";
-    case Status::bad_rows: return "the rows of descriptors do not fit each other";
-    case Status::bad_option: return "an option is out of its range";
-    case Status::too_few_pairs: return "a pose takes three correspondences or more";
-    case Status::no_pose: return "no rigid motion fits three correspondences or more";
-    case Status::not_trained: return "the recognizer has no training view";
-    case Status::not_a_model: return "not a recognizer's model";
-    case Status::other_version: return "the model's format is of another version";
-    case Status::other_descriptor: return "the model was trained with another descriptor";
-    case Status::damaged_model: return "the model is damaged";
-    case Status::no_file: return "the file cannot be read or written";
-    case Status::missing_intensities: return "the descriptor needs intensities and there are none";
-    case Status::unsure_frame: return "other key points have surer frames";
-  }
-  return "unknown status";
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_STATUS_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// Three float coordinates per point: where each one of point 0 lies, and how far it is to the same one of point 1.
-/// Covers x y z x y z ..., arrays of structs with padding, and separate x, y, z arrays. No alignment is assumed.
-struct Float3Channel {
-  const unsigned char* x;
-  const unsigned char* y;
-  const unsigned char* z;
-  std::size_t stride_bytes;
-};
-
-/// Three color bytes per point, sRGB. The three pointers express the order r g b, b g r (PCL, packed floats) or
-/// planes.
-struct ColorChannel {
-  const unsigned char* r;
-  const unsigned char* g;
-  const unsigned char* b;
-  std::size_t stride_bytes;
-};
-
-/// How the numbers of a ScalarChannel are stored.
-enum class ScalarType : std::uint8_t { float32, uint8, uint16 };
-
-/// One number per point, as the intensity of a lidar's or a time-of-flight camera's echo.
-struct ScalarChannel {
-  const unsigned char* value;
-  std::size_t stride_bytes;
-  ScalarType type;
-};
-
-/// What a descriptor may need of a cloud beyond its points; `own`: something that no view has, but the caller.
-enum class Channel : std::uint8_t { colors, normals, intensities, own };
-
-/// A borrowed point cloud: nothing is copied, nothing is owned, the memory must outlive the view.
-/// Positions in meters (any unit works if the radius has the same). Points that are not finite are never neighbors.
-/// A channel whose first pointer is null is absent. `width * height == size`; height is 1 for unorganized clouds.
-/// Trivial type with plain members, the same in every translation unit; reading it is thread-safe.
-struct CloudView {
-  Float3Channel points;
-  ColorChannel colors;
-  Float3Channel normals;
-  ScalarChannel intensities;
-  std::size_t size;
-  std::size_t width;
-  std::size_t height;
-};
-
-struct Point {
-  float x, y, z;
-};
-
-/// A surface normal: a unit vector, or NaN in all three where a point has none.
-struct SurfaceNormal {
-  float x, y, z;
-};
-
-/// An sRGB color.
-struct Rgb {
-  std::uint8_t r, g, b;
-};
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
-[[nodiscard]] inline bool has_colors(const CloudView& cloud) noexcept { return cloud.colors.r != nullptr; }
-[[nodiscard]] inline bool has_normals(const CloudView& cloud) noexcept { return cloud.normals.x != nullptr; }
-[[nodiscard]] inline bool has_intensities(const CloudView& cloud) noexcept {
-  return cloud.intensities.value != nullptr;
-}
-
-/// Is this a view that can be read at all? Every entry point asks once.
-[[nodiscard]] inline Status validate(const CloudView& cloud) noexcept {
-  if (cloud.size == 0) return Status::empty_cloud;
-  if (cloud.size > 0xFFFFFFFFu) return Status::bad_view;  // indices have 32 bits
-  if (cloud.points.x == nullptr || cloud.points.y == nullptr || cloud.points.z == nullptr) return Status::bad_view;
-  if (has_colors(cloud) && (cloud.colors.g == nullptr || cloud.colors.b == nullptr)) return Status::bad_view;
-  if (has_normals(cloud) && (cloud.normals.y == nullptr || cloud.normals.z == nullptr)) return Status::bad_view;
-  return Status::ok;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// Has the cloud what a source reads?
-[[nodiscard]] inline bool has_channel(const CloudView& cloud, Channel channel) noexcept {
-  switch (channel) {
-    case Channel::colors: return has_colors(cloud);
-    case Channel::normals: return has_normals(cloud);
-    case Channel::intensities: return has_intensities(cloud);
-    case Channel::own: return true;
-  }
-  return true;
-}
-
-/// What to say where it has not.
-[[nodiscard]] constexpr Status missing(Channel channel) noexcept {
-  return channel == Channel::colors    ? Status::missing_colors
-         : channel == Channel::normals ? Status::missing_normals
-                                       : Status::missing_intensities;
-}
-
-/// A channel whose x, y and z follow each other by `step` bytes; absent if there is no memory.
-[[nodiscard]] inline Float3Channel float3_channel(const float* first, std::size_t step, std::size_t stride) noexcept {
-  if (first == nullptr) return {};
-  const auto* x = reinterpret_cast<const unsigned char*>(first);
-  return {x, x + step, x + 2 * step, stride};
-}
-
-[[nodiscard]] inline ColorChannel color_channel(const unsigned char* r, std::size_t step, std::size_t stride) noexcept {
-  if (r == nullptr) return {};
-  return {r, r + step, r + 2 * step, stride};
-}
-
-/// float32, uint8 or uint16: how a ScalarChannel reads a Scalar.
-template <class Scalar>
-inline constexpr bool is_channel_scalar =
-    std::is_same<Scalar, float>::value || std::is_same<Scalar, std::uint8_t>::value ||
-    std::is_same<Scalar, std::uint16_t>::value;
-
-template <class Scalar>
-[[nodiscard]] ScalarChannel scalar_channel(const Scalar* first, std::size_t stride) noexcept {
-  static_assert(is_channel_scalar<Scalar>, "Intensities are supported as float, std::uint8_t and std::uint16_t");
-  if (first == nullptr) return {};
-  return {reinterpret_cast<const unsigned char*>(first), stride,
-          sizeof(Scalar) == 4   ? ScalarType::float32
-          : sizeof(Scalar) == 2 ? ScalarType::uint16
-                                : ScalarType::uint8};
-}
-
-/// A view of nothing, and of more than nothing: bad_view everywhere.
-[[nodiscard]] inline CloudView unusable_view() noexcept {
-  CloudView view{};
-  view.size = 1;
-  return view;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// View of `count` points x y z (floats). `stride_bytes` is the distance between points.
-[[nodiscard]] inline CloudView view_xyz(const float* xyz, std::size_t count,
-                                        std::size_t stride_bytes = 3 * sizeof(float)) noexcept {
-  CloudView view{};
-  view.points = detail::float3_channel(xyz, sizeof(float), stride_bytes);
-  view.size = count;
-  view.width = count;
-  view.height = 1;
-  return view;
-}
-
-/// View of `count` points x y z (floats) and their colors r g b (bytes), each with its own stride.
-[[nodiscard]] inline CloudView view_xyz_rgb(const float* xyz, const std::uint8_t* rgb, std::size_t count,
-                                            std::size_t xyz_stride_bytes = 3 * sizeof(float),
-                                            std::size_t rgb_stride_bytes = 3) noexcept {
-  CloudView view = view_xyz(xyz, count, xyz_stride_bytes);
-  view.colors = detail::color_channel(rgb, 1, rgb_stride_bytes);
-  return view;
-}
-
-/// The same cloud with `cloud.size` normals x y z (floats), borrowed like the points. `stride_bytes` is the distance
-/// between normals.
-[[nodiscard]] inline CloudView with_normals(CloudView cloud, const SurfaceNormal* normals,
-                                            std::size_t stride_bytes = sizeof(SurfaceNormal)) noexcept {
-  cloud.normals = detail::float3_channel(normals == nullptr ? nullptr : &normals->x, sizeof(float), stride_bytes);
-  return cloud;
-}
-
-/// The same cloud with `cloud.size` intensities (float, std::uint8_t or std::uint16_t), borrowed like the points.
-/// `stride_bytes` is the distance between two of them.
-template <class Scalar>
-[[nodiscard]] CloudView with_intensities(CloudView cloud, const Scalar* intensities,
-                                         std::size_t stride_bytes = sizeof(Scalar)) noexcept {
-  cloud.intensities = detail::scalar_channel(intensities, stride_bytes);
-  return cloud;
-}
-
-/// The same cloud as an image of `width * height` pixels, row by row, for OrganizedSearch.
-[[nodiscard]] inline CloudView organized(CloudView cloud, std::size_t width, std::size_t height) noexcept {
-  cloud.width = width;
-  cloud.height = height;
-  return cloud;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_CLOUD_CLOUD_HPP
 
 // shortshot/cloud/point_lanes.hpp: the points of one register.
 #ifndef SHORTSHOT_CLOUD_POINT_LANES_HPP

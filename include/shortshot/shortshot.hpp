@@ -13,6 +13,8 @@
 
 #include "macros_off.hpp"
 
+#include "cloud/view_of.hpp"
+#include "cloud/view_point_cloud2.hpp"
 #include "kernel.hpp"
 
 #if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
