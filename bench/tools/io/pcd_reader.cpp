@@ -172,14 +172,14 @@ FieldPlace field_place(const PcdHeader& header, const PcdField& field) {
   return {static_cast<std::size_t>(field.offset_bytes * header.points), static_cast<std::size_t>(field.size_bytes())};
 }
 
-// The numbers of a field, one per point, to `out` and every `step`-th behind it. `bytes` holds points *
+// The numbers of a field, one per point, to `first` of `out` and every `step`-th behind it. `bytes` holds points *
 // point_size_bytes bytes.
-void decode_field(std::string_view bytes, const PcdHeader& header, const PcdField& field, float* out,
-                  std::size_t step) {
+void decode_field(std::string_view bytes, const PcdHeader& header, const PcdField& field, std::size_t first,
+                  std::size_t step, std::vector<float>& out) {
   const FieldPlace place = field_place(header, field);
   for (std::size_t point = 0; point < header.points; ++point) {
     const char* const value = bytes.data() + place.begin_bytes + point * place.stride_bytes;
-    out[step * point] = to_float(load_scalar(value, field.type, pcd_order));
+    out[first + step * point] = to_float(load_scalar(value, field.type, pcd_order));
   }
 }
 
@@ -187,9 +187,9 @@ void decode_field(std::string_view bytes, const PcdHeader& header, const PcdFiel
 RgbdCloud decode_binary(std::string_view bytes, const PcdHeader& header, const PointFields& fields) {
   RgbdCloud cloud = allocate_cloud(header, fields);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    decode_field(bytes, header, fields.xyz[axis], cloud.xyz.data() + axis, 3);
+    decode_field(bytes, header, fields.xyz[axis], axis, 3, cloud.xyz);
   }
-  if (fields.has_intensity) decode_field(bytes, header, fields.intensity, cloud.intensity.data(), 1);
+  if (fields.has_intensity) decode_field(bytes, header, fields.intensity, 0, 1, cloud.intensity);
   if (!fields.has_color) return cloud;
   const FieldPlace place = field_place(header, fields.color);
   for (std::size_t point = 0; point < cloud.size(); ++point) {
