@@ -3575,7 +3575,8 @@ struct Intensity : extend::Signal<Bins, CloudIntensities> {
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 measure(const At& at,
                                                                   const Intensities& intensities) noexcept {
     const extend::simd::F32 zero = extend::simd::all(0.0f);
-    const extend::simd::F32 echo = extend::simd::max(zero, intensities(at.index));  // of NaN and 0: the second, NaN
+    const extend::simd::F32 own = intensities(at.index);
+    const extend::simd::F32 echo = extend::simd::max(zero, own) + (own - own);  // NaN where it is not finite
     const extend::simd::F32 sum = echo + extend::simd::max(zero, extend::simd::all(intensities.reference));
     return select(zero >= sum, extend::simd::all(0.5f), echo / sum);
   }

@@ -82,17 +82,18 @@ inline std::string error_of(const std::string& bytes) {
 struct SamplePoint {
   std::array<float, 3> xyz;
   std::array<std::uint8_t, 3> rgb;
+  std::uint16_t intensity;
 };
 
 // 3 columns, 2 rows; the values are exact in text, float and double.
 inline std::vector<SamplePoint> sample_points() {
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  return {{{0.5F, -0.25F, 1.0F}, {255, 0, 1}},
-          {{0.125F, 2.0F, 1.5F}, {49, 29, 136}},
-          {{nan, nan, nan}, {0, 0, 0}},
-          {{-3.0F, 0.75F, 8.0F}, {7, 255, 128}},
-          {{1e-3F, 1024.0F, 0.0F}, {255, 255, 255}},
-          {{-0.5F, -0.5F, 0.625F}, {1, 2, 3}}};
+  return {{{0.5F, -0.25F, 1.0F}, {255, 0, 1}, 12},
+          {{0.125F, 2.0F, 1.5F}, {49, 29, 136}, 0},
+          {{nan, nan, nan}, {0, 0, 0}, 7},
+          {{-3.0F, 0.75F, 8.0F}, {7, 255, 128}, 65535},
+          {{1e-3F, 1024.0F, 0.0F}, {255, 255, 255}, 256},
+          {{-0.5F, -0.5F, 0.625F}, {1, 2, 3}, 129}};
 }
 
 // One value in both its forms.
@@ -145,6 +146,12 @@ inline Cell packed_color(const SamplePoint& point, char color_type) {
   return color_type == 'I' ? cell(as_integer) : cell(as_float);
 }
 
+// `type` is F, U or I: a float, or a whole number of 2 or of 4 bytes.
+inline Cell intensity_cell(const SamplePoint& point, char type) {
+  if (type == 'U') return cell(point.intensity);
+  return type == 'I' ? cell(std::int32_t{point.intensity}) : cell(static_cast<float>(point.intensity));
+}
+
 inline std::string joined_text(const std::vector<Row>& rows) {
   std::string text;
   for (const Row& row : rows) {
@@ -181,18 +188,19 @@ inline std::string pcd_body(const std::vector<Row>& rows, const std::string& dat
   return lzf_block(joined_bytes(columns));
 }
 
-// The sample with fields of many sizes in an unusual order.
-inline std::string sample_pcd(const std::string& data, char color_type) {
+// The sample with fields of many sizes in an unusual order. `type` is F, U or I: that of colors and intensities.
+inline std::string sample_pcd(const std::string& data, char type) {
   const std::string header = std::string("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n") +
-                             "FIELDS label y x _ z rgb imX histogram\nSIZE 2 8 4 1 4 4 8 4\nTYPE U F F U F " +
-                             color_type + " I F\nCOUNT 1 1 1 3 1 1 1 2\nWIDTH 3\nHEIGHT 2\n" +
+                             "FIELDS label y x _ z rgb imX histogram intensity\nSIZE 2 8 4 1 4 4 8 4 " +
+                             (type == 'U' ? "2" : "4") + "\nTYPE U F F U F " + type + " I F " + type +
+                             "\nCOUNT 1 1 1 3 1 1 1 2 1\nWIDTH 3\nHEIGHT 2\n" +
                              "VIEWPOINT 0.5 -1 2 1 0 0 0\nPOINTS 6\nDATA " + data + "\n";
   std::vector<Row> rows;
   for (const SamplePoint& point : sample_points()) {
     const Cell padding = cell(std::uint8_t{7}) + cell(std::uint8_t{8}) + cell(std::uint8_t{9});
     rows.push_back({cell(std::uint16_t{9}), cell(static_cast<double>(point.xyz[1])), cell(point.xyz[0]), padding,
-                    cell(point.xyz[2]), packed_color(point, color_type), cell(std::int64_t{-314}),
-                    cell(0.5F) + cell(0.25F)});
+                    cell(point.xyz[2]), packed_color(point, type), cell(std::int64_t{-314}), cell(0.5F) + cell(0.25F),
+                    intensity_cell(point, type)});
   }
   return header + pcd_body(rows, data);
 }
@@ -205,7 +213,8 @@ inline std::string sample_ply(const std::string& format) {
       "element camera 2\nproperty float fov\nproperty list uchar short ids\nelement nothing 4000000000\n" +
       "element vertex 6\nproperty int label\nproperty double y\nproperty list ushort uint links\n" +
       "property float x\nproperty float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n" +
-      "property short last\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+      "property short last\nproperty ushort scalar_Intensity\nelement face 1\nproperty list uchar int "
+      "vertex_indices\nend_header\n";
   std::vector<Row> rows{
       {cell(1.5F, big), cell(std::uint8_t{2}), cell(std::int16_t{-1}, big), cell(std::int16_t{5}, big)},
       {cell(2.5F, big), cell(std::uint8_t{0})}};
@@ -213,7 +222,7 @@ inline std::string sample_ply(const std::string& format) {
     rows.push_back({cell(std::int32_t{-4}, big), cell(static_cast<double>(point.xyz[1]), big),
                     cell(std::uint16_t{1}, big), cell(std::uint32_t{77}, big), cell(point.xyz[0], big),
                     cell(point.xyz[2], big), cell(point.rgb[0]), cell(point.rgb[1]), cell(point.rgb[2]),
-                    cell(std::int16_t{-2}, big)});
+                    cell(std::int16_t{-2}, big), cell(point.intensity, big)});
   }
   rows.push_back(
       {cell(std::uint8_t{3}), cell(std::int32_t{0}, big), cell(std::int32_t{1}, big), cell(std::int32_t{2}, big)});

@@ -50,6 +50,7 @@ template <class D>
 void print_descriptors(const Input& input, const GridSearch& search, const char* array) {
   if (D::needs_colors && !has_colors(input.cloud)) return;
   if (D::needs_normals && !has_normals(input.cloud)) return;
+  if (D::needs_intensities && !has_intensities(input.cloud)) return;
   Hash hash;
   std::vector<float> values(D::size);
   const auto add = [&](Status status) {
@@ -122,6 +123,7 @@ void print_all(const Input& input) {
   print_descriptors<Scsh<Shape, Color, 15, PublishedVoting, LinearRadius, PclLab>>(input, search, "scsh336_pcl");
   print_descriptors<Ssh<Shape, MultilinearVoting, LogRadius<>>>(input, search, "ssh96_multilinear_log");
   print_descriptors<Scsh<Shape, Color, 15, MultilinearVoting, LogRadius<>>>(input, search, "scsh336_multilinear_log");
+  print_descriptors<IntensityShape336>(input, search, "intensity_shape336");
   print_descriptors<Shot352>(input, search, "shot352");
   print_descriptors<Cshot1344>(input, search, "cshot1344");
   print_descriptors<PclShot352>(input, search, "shot352_pcl");
@@ -140,7 +142,7 @@ void print_recognition(const Input& input) {
                               extract(input.cloud, search, keypoints, 0.9f * input.radius.value, other)};
   hash.add(described, 2);
   std::vector<Match> matches;
-  std::vector<Correspondence> correspondences;
+  std::vector<MatchedPair> correspondences;
   const Status matched[] = {nearest(rows_of(view), rows_of(other), 3, matches),
                             reciprocal_correspondences(rows_of(view), rows_of(other), correspondences)};
   hash.add(matched, 2);
@@ -149,10 +151,10 @@ void print_recognition(const Input& input) {
   hash.print(input.name, "matches");
 
   std::vector<PointPair> pairs;
-  for (const Correspondence& c : correspondences) {
+  for (const MatchedPair& c : correspondences) {
     const Point& p = keypoints[c.target].position;
-    const float y = rounded(0.8f * p.x) - rounded(0.6f * p.z);
-    const float z = rounded(0.6f * p.x) + rounded(0.8f * p.z);
+    const float y = extend::unfused(0.8f * p.x) - extend::unfused(0.6f * p.z);
+    const float z = extend::unfused(0.6f * p.x) + extend::unfused(0.8f * p.z);
     pairs.push_back({keypoints[c.source].position, {1.0f - p.y, y, z}});
   }
   Pose fitted, estimated;
@@ -167,8 +169,8 @@ void print_recognition(const Input& input) {
 
   Recognizer recognizer(RecognizerOptions{0.05f, 2, 8});
   std::vector<Hypothesis> objects;
-  const Status recognized[] = {recognizer.train(view, keypoints, {0.0f, 0.0f, 1.0f}, "scene", "a"),
-                               recognizer.recognize(other, keypoints, objects)};
+  const Status recognized[] = {train(recognizer, view, {0.0f, 0.0f, 1.0f}, "scene", "a"),
+                               recognize(recognizer, other, objects)};
   Hash recognition;
   recognition.add(recognized, 2);
   recognition.add(objects.data(), objects.size());
@@ -181,6 +183,10 @@ void print_scene() {
   Hash hash;
   hash.add(scene.xyz.data(), scene.xyz.size());
   hash.print(input.name, "points");
+  Hash intensities;
+  intensities.add(scene.intensity.data(), scene.intensity.size());
+  intensities.print(input.name, "intensities");
+  input.cloud = with_intensities(input.cloud, scene.intensity.data());
   const Status status = sample_uniform(input.cloud, 0.03f, input.keypoints);
   Hash keypoints;
   keypoints.add(&status, 1);

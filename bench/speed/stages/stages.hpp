@@ -26,7 +26,7 @@ struct StageBuild {
 };
 
 /// All stages in all builds that this CPU can run; one for AVX2 that it cannot is left out with a line on stderr.
-/// The workload must outlive the stages. Stages with color are left out for clouds without.
+/// The workload must outlive the stages. Stages with color or intensity are left out for clouds without.
 std::vector<StageBuild> build_stages(const Workload& workload);
 
 bool cpu_has_avx2();

@@ -151,6 +151,7 @@ class StageList {
   template <class D>
   void add_descriptor(const char* name) {
     if (D::needs_colors && !workload_.cloud.has_colors()) return;
+    if (D::needs_intensities && !workload_.cloud.has_intensities()) return;
     add_kernel<D>(name);
     add_extract<D>(name);
   }
@@ -236,6 +237,8 @@ class StageList {
       if constexpr (D::needs_colors) {
         const shortshot::LabColors colors{lab->data(), shortshot::to_lab<typename D::LabRule>(k.key.color)};
         return kernel<D>(k.neighborhood, shortshot::sources(colors, normals), k.frame, radius, out);
+      } else if constexpr (D::needs_intensities) {
+        return kernel<D>(k.neighborhood, shortshot::CloudIntensities::at(view, k.key), k.frame, radius, out);
       } else {
         return kernel<D>(k.neighborhood, shortshot::sources(normals), k.frame, radius, out);
       }
@@ -286,6 +289,7 @@ StageBuild STAGES(const Workload& workload) {
   list.add_descriptor<shortshot::Scsh696>("Scsh696");
   list.add_descriptor<shortshot::Shot352>("Shot352");
   list.add_descriptor<shortshot::Cshot1344>("Cshot1344");
+  list.add_descriptor<shortshot::IntensityShape336>("IntensityShape336");
   list.add_binary<shortshot::Shot352>("Shot352");
   return {TEXT(STAGES_ISA), std::move(list.stages)};
 }

@@ -46,6 +46,11 @@ std::size_t valid_points(const shortshot::CloudView& view) {
   return valid;
 }
 
+const char* channels_of(const RgbdCloud& cloud) {
+  if (cloud.has_intensities()) return cloud.has_colors() ? "with color and intensity" : "with intensity";
+  return cloud.has_colors() ? "with color" : "without color";
+}
+
 std::size_t with_normal(const std::vector<shortshot::SurfaceNormal>& normals) {
   return static_cast<std::size_t>(std::count_if(normals.begin(), normals.end(),
                                                 [](const shortshot::SurfaceNormal& n) { return !std::isnan(n.x); }));
@@ -57,8 +62,7 @@ void print_result(const RgbdCloud& cloud, double read_ms, const DemoOptions& opt
   const double sum = std::accumulate(result.neighbors.begin(), result.neighbors.end(), 0.0);
   const auto [least, most] = std::minmax_element(result.neighbors.begin(), result.neighbors.end());
   std::printf("  points              %zu (%zu x %zu), %zu valid, %s, in %.1f ms\n", cloud.size(), cloud.width,
-              cloud.height, valid_points(view_of_cloud(cloud)), cloud.has_colors() ? "with color" : "without color",
-              read_ms);
+              cloud.height, valid_points(view_of_cloud(cloud)), channels_of(cloud), read_ms);
   std::printf("  key points          %zu, one per %g m voxel, in %.1f ms\n", keypoints,
               static_cast<double>(options.leaf), result.sample_ms);
   if (!result.normals.empty()) {
@@ -73,6 +77,7 @@ void print_result(const RgbdCloud& cloud, double read_ms, const DemoOptions& opt
               1e3 * result.describe_ms / static_cast<double>(keypoints));
   std::printf("  size                %zu floats, %.0f bytes per descriptor, %.1f KB in all\n", result.size, bytes,
               bytes * static_cast<double>(keypoints) / 1024.0);
+  for (const std::string& part : result.layout) std::printf("  layout              %s\n", part.c_str());
   std::printf("  checksum            %016llx\n", static_cast<unsigned long long>(checksum(result.values)));
   for (int kind = 0; kind < shortshot::status_count; ++kind) {
     const auto status = static_cast<shortshot::Status>(kind);

@@ -67,6 +67,13 @@ std::vector<std::string> layout_of(shortshot::Descriptor<Voting, Parts...>) {
   return {layout_of<Parts>(name_of<typename Parts::Signal>())...};
 }
 
+/// What to say behind a refusal of the whole cloud.
+template <class D>
+const char* way_out(const RgbdCloud& cloud) {
+  const bool lacks = (D::needs_colors && !cloud.has_colors()) || (D::needs_intensities && !cloud.has_intensities());
+  return lacks ? " (--descriptor ssh96 needs none)" : "";
+}
+
 template <class D>
 DemoResult describe(const RgbdCloud& cloud, const DemoOptions& options) {
   shortshot::CloudView view = view_of_cloud(cloud);
@@ -88,8 +95,8 @@ DemoResult describe(const RgbdCloud& cloud, const DemoOptions& options) {
   with_search(view, options.search, options.radius, [&](const auto& search) {
     result.index_ms = indexing.elapsed_ms();
     const Stopwatch describing;
-    const char* hint = D::needs_colors && !cloud.has_colors() ? " (--descriptor ssh96 needs none)" : "";
-    require(shortshot::extract<D>(view, search, result.keypoints, support, features, options.threads), hint);
+    require(shortshot::extract<D>(view, search, result.keypoints, support, features, options.threads),
+            way_out<D>(cloud));
     result.describe_ms = describing.elapsed_ms();
   });
   result.values = std::move(features.values);
@@ -116,6 +123,7 @@ DemoResult run_demo(const RgbdCloud& cloud, const DemoOptions& options) {
   if (options.descriptor == "ssh32") return describe<shortshot::Ssh32>(cloud, options);
   if (options.descriptor == "ssh96") return describe<shortshot::Ssh96>(cloud, options);
   if (options.descriptor == "scsh696") return describe<shortshot::Scsh696>(cloud, options);
+  if (options.descriptor == "intensity336") return describe<shortshot::IntensityShape336>(cloud, options);
   if (options.descriptor == "shot352") return describe<shortshot::Shot352>(cloud, options);
   if (options.descriptor == "cshot1344") return describe<shortshot::Cshot1344>(cloud, options);
   return describe<shortshot::Scsh336>(cloud, options);

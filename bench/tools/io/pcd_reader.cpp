@@ -23,7 +23,9 @@ constexpr ByteOrder pcd_order = ByteOrder::little_endian;
 struct PointFields {
   std::array<PcdField, 3> xyz;
   PcdField color;
+  PcdField intensity;
   bool has_color = false;
+  bool has_intensity = false;
 };
 
 const PcdField* find_field(const PcdHeader& header, std::string_view name) {
@@ -33,41 +35,61 @@ const PcdField* find_field(const PcdHeader& header, std::string_view name) {
   return nullptr;
 }
 
+InputError field_error(const ByteSource& source, const PcdHeader& header, const std::string& what) {
+  return InputError::at_line(source.path(), header.fields_line, what);
+}
+
+void find_color(const ByteSource& source, const PcdHeader& header, PointFields& found) {
+  const PcdField* color = find_field(header, "rgb");
+  if (color == nullptr) color = find_field(header, "rgba");
+  if (color == nullptr) return;
+  if (color->type.size_bytes != 4 || color->count != 1) {
+    throw field_error(source, header,
+                      "expected SIZE 4 and COUNT 1 for field " + std::string(color->name) + ", found SIZE " +
+                          std::to_string(color->type.size_bytes) + " and COUNT " + std::to_string(color->count));
+  }
+  found.color = *color;
+  found.has_color = true;
+}
+
+// Of any type: laser scanners write floats as well as whole numbers of 8 or 16 bits.
+void find_intensity(const ByteSource& source, const PcdHeader& header, PointFields& found) {
+  const PcdField* const intensity = find_field(header, "intensity");
+  if (intensity == nullptr) return;
+  if (intensity->count != 1) {
+    throw field_error(source, header,
+                      "expected COUNT 1 for field intensity, found COUNT " + std::to_string(intensity->count));
+  }
+  found.intensity = *intensity;
+  found.has_intensity = true;
+}
+
 PointFields find_point_fields(const ByteSource& source, const PcdHeader& header) {
   PointFields found;
-  const auto error = [&](const std::string& what) {
-    return InputError::at_line(source.path(), header.fields_line, what);
-  };
   constexpr std::array<std::string_view, 3> axes{"x", "y", "z"};
   for (std::size_t axis = 0; axis < axes.size(); ++axis) {
     const PcdField* const field = find_field(header, axes[axis]);
     const std::string name(axes[axis]);
-    if (field == nullptr) throw error("expected a field " + name + ", found none");
+    if (field == nullptr) throw field_error(source, header, "expected a field " + name + ", found none");
     if (field->type.kind != ScalarKind::floating || field->count != 1) {
-      throw error("expected TYPE F and COUNT 1 for field " + name + ", found another");
+      throw field_error(source, header, "expected TYPE F and COUNT 1 for field " + name + ", found another");
     }
     found.xyz[axis] = *field;
   }
-  const PcdField* color = find_field(header, "rgb");
-  if (color == nullptr) color = find_field(header, "rgba");
-  if (color == nullptr) return found;
-  if (color->type.size_bytes != 4 || color->count != 1) {
-    throw error("expected SIZE 4 and COUNT 1 for field " + std::string(color->name) + ", found SIZE " +
-                std::to_string(color->type.size_bytes) + " and COUNT " + std::to_string(color->count));
-  }
-  found.color = *color;
-  found.has_color = true;
+  find_color(source, header, found);
+  find_intensity(source, header, found);
   return found;
 }
 
 // To be called after the points are known to be in the file.
-RgbdCloud allocate_cloud(const PcdHeader& header, bool has_color) {
+RgbdCloud allocate_cloud(const PcdHeader& header, const PointFields& fields) {
   RgbdCloud cloud;
   cloud.width = static_cast<std::size_t>(header.width);
   cloud.height = static_cast<std::size_t>(header.height);
   cloud.viewpoint = header.viewpoint;
   cloud.xyz.resize(3 * static_cast<std::size_t>(header.points));
-  if (has_color) cloud.rgb.resize(cloud.xyz.size());
+  if (fields.has_color) cloud.rgb.resize(cloud.xyz.size());
+  if (fields.has_intensity) cloud.intensity.resize(cloud.size());
   return cloud;
 }
 
@@ -92,9 +114,24 @@ std::uint32_t ascii_color(const ByteSource& source, Word word, const PcdField& f
   return bits;
 }
 
+// As a file of bytes would hold it: what its type has no room for is refused.
+float ascii_scalar(const ByteSource& source, Word word, const PcdField& field) {
+  const int bits = 8 * field.type.size_bytes;
+  switch (field.type.kind) {
+    case ScalarKind::unsigned_integer:
+      return static_cast<float>(expect_count(source, word, field.name, 0, ~std::uint64_t{0} >> (64 - bits)));
+    case ScalarKind::signed_integer: {
+      const auto highest = static_cast<std::int64_t>(~std::uint64_t{0} >> (65 - bits));
+      return static_cast<float>(expect_integer(source, word, field.name, -highest - 1, highest));
+    }
+    case ScalarKind::floating: break;
+  }
+  return expect_float(source, word, field.name);
+}
+
 RgbdCloud read_ascii(ByteSource& source, const PcdHeader& header, const PointFields& fields) {
   expect_room_for_rows(source, header.points, header.values_per_point);
-  RgbdCloud cloud = allocate_cloud(header, fields.has_color);
+  RgbdCloud cloud = allocate_cloud(header, fields);
   std::vector<std::string_view> words;
   for (std::size_t point = 0; point < cloud.size(); ++point) {
     if (!next_row(source, words)) {
@@ -114,6 +151,9 @@ RgbdCloud read_ascii(ByteSource& source, const PcdHeader& header, const PointFie
     if (fields.has_color) {
       store_color(ascii_color(source, word_of(fields.color), fields.color), &cloud.rgb[3 * point]);
     }
+    if (fields.has_intensity) {
+      cloud.intensity[point] = ascii_scalar(source, word_of(fields.intensity), fields.intensity);
+    }
   }
   return cloud;
 }
@@ -132,17 +172,24 @@ FieldPlace field_place(const PcdHeader& header, const PcdField& field) {
   return {static_cast<std::size_t>(field.offset_bytes * header.points), static_cast<std::size_t>(field.size_bytes())};
 }
 
+// The numbers of a field, one per point, to `first` of `out` and every `step`-th behind it. `bytes` holds points *
+// point_size_bytes bytes.
+void decode_field(std::string_view bytes, const PcdHeader& header, const PcdField& field, std::size_t first,
+                  std::size_t step, std::vector<float>& out) {
+  const FieldPlace place = field_place(header, field);
+  for (std::size_t point = 0; point < header.points; ++point) {
+    const char* const value = bytes.data() + place.begin_bytes + point * place.stride_bytes;
+    out[first + step * point] = to_float(load_scalar(value, field.type, pcd_order));
+  }
+}
+
 // `bytes` holds points * point_size_bytes bytes.
 RgbdCloud decode_binary(std::string_view bytes, const PcdHeader& header, const PointFields& fields) {
-  RgbdCloud cloud = allocate_cloud(header, fields.has_color);
+  RgbdCloud cloud = allocate_cloud(header, fields);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const PcdField& field = fields.xyz[axis];
-    const FieldPlace place = field_place(header, field);
-    for (std::size_t point = 0; point < cloud.size(); ++point) {
-      const char* const value = bytes.data() + place.begin_bytes + point * place.stride_bytes;
-      cloud.xyz[3 * point + axis] = to_float(load_scalar(value, field.type, pcd_order));
-    }
+    decode_field(bytes, header, fields.xyz[axis], axis, 3, cloud.xyz);
   }
+  if (fields.has_intensity) decode_field(bytes, header, fields.intensity, 0, 1, cloud.intensity);
   if (!fields.has_color) return cloud;
   const FieldPlace place = field_place(header, fields.color);
   for (std::size_t point = 0; point < cloud.size(); ++point) {

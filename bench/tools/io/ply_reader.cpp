@@ -16,25 +16,33 @@
 namespace shortshot_bench {
 namespace {
 
-// What a vertex property is to the cloud: x y z red green blue, or nothing.
-constexpr std::size_t role_count = 6;
+// What a vertex property is to the cloud: x y z red green blue intensity, or nothing.
+constexpr std::size_t role_count = 7;
 constexpr std::size_t first_color_role = 3;
+constexpr std::size_t intensity_role = 6;
 constexpr std::size_t no_role = role_count;
 
 struct VertexLayout {
   std::vector<std::size_t> roles;  // of each property
   std::array<bool, role_count> is_given{};
   bool has_color = false;
+
+  bool has_intensity() const { return is_given[intensity_role]; }
 };
 
 std::size_t role_of_name(std::string_view name) {
   constexpr std::string_view diffuse = "diffuse_";
-  constexpr std::array<std::string_view, role_count> names{"x", "y", "z", "red", "green", "blue"};
+  constexpr std::array<std::string_view, intensity_role> names{"x", "y", "z", "red", "green", "blue"};
   constexpr std::array<std::string_view, 3> short_names{"r", "g", "b"};
+  // CloudCompare puts "scalar_" before the names of its fields, and calls this one "Intensity".
+  for (const char* const intensity : {"intensity", "scalar_intensity", "scalar_Intensity"}) {
+    if (name == intensity) return intensity_role;
+  }
   if (name.substr(0, diffuse.size()) == diffuse) name.remove_prefix(diffuse.size());
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   const auto color = std::find(short_names.begin(), short_names.end(), name);
+  if (color == short_names.end()) return no_role;
   return first_color_role + static_cast<std::size_t>(color - short_names.begin());
 }
 
@@ -57,7 +65,8 @@ VertexLayout find_layout(const ByteSource& source, const PlyElement& vertices) {
                                 std::string("expected a property ") + "xyz"[axis] + " in element 'vertex', found none");
     }
   }
-  layout.has_color = std::all_of(layout.is_given.begin(), layout.is_given.end(), [](bool b) { return b; });
+  layout.has_color = std::all_of(layout.is_given.begin(), layout.is_given.begin() + intensity_role,
+                                 [](bool is_given) { return is_given; });
   return layout;
 }
 
@@ -89,6 +98,7 @@ RgbdCloud read_vertices(Values& values, const PlyElement& vertices, const Vertex
   cloud.height = 1;
   cloud.xyz.resize(3 * cloud.width);
   if (layout.has_color) cloud.rgb.resize(3 * cloud.width);
+  if (layout.has_intensity()) cloud.intensity.resize(cloud.width);
   for (std::size_t point = 0; point < cloud.width; ++point) {
     values.begin_row(vertices, point);
     for (std::size_t i = 0; i < vertices.properties.size(); ++i) {
@@ -96,6 +106,8 @@ RgbdCloud read_vertices(Values& values, const PlyElement& vertices, const Vertex
       const std::size_t role = layout.roles[i];
       if (role < first_color_role) {
         cloud.xyz[3 * point + role] = to_float(values.read(property));
+      } else if (role == intensity_role) {
+        cloud.intensity[point] = to_float(values.read(property));
       } else if (role != no_role && layout.has_color) {
         cloud.rgb[3 * point + role - first_color_role] = to_color(values.read(property), property.type);
       } else {

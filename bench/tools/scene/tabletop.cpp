@@ -17,7 +17,9 @@ using namespace tabletop_detail;
 constexpr double kMaxDepth = 3.0;
 constexpr double kMinCosIncidence = 0.2;
 constexpr double kDropoutShare = 0.01;
-constexpr double kColorSigma = 4.0;  // of 255
+constexpr double kColorSigma = 4.0;       // of 255
+constexpr double kEchoSpread = 0.1;       // of its size, to either side
+constexpr double kEchoAtOneMeter = 40.0;  // of a color of brightness 1 (of 255)
 
 struct Scene {
   std::vector<Solid> solids;
@@ -190,12 +192,27 @@ std::uint8_t noisy_channel(Random& random, double value) {
   return static_cast<std::uint8_t>(std::min(255.0, std::max(0.0, noisy)));
 }
 
+// The camera's own light as it comes back: less from dark and from slanted surfaces, and with the square of their
+// distance; the lamp is filtered out. 0 where nothing was measured.
+float measured_echo(Random& random, const Scene& scene, const Vec3& ray, const Hit& hit, bool measured) {
+  const double speckle = random.uniform(1.0 - kEchoSpread, 1.0 + kEchoSpread);
+  if (!measured) return 0.0f;
+  const Vec3 to_point = ray * hit.t;
+  const Vec3 in_solid = rotate_to_local(*hit.solid, scene.eye + to_point - hit.solid->base);
+  const Vec3 albedo = surface_color(*hit.solid, in_solid, hit.normal);
+  const double brightness = 0.25 * albedo.x + 0.5 * albedo.y + 0.25 * albedo.z;
+  const double incidence = std::fabs(dot(rotate_to_world(*hit.solid, hit.normal), ray)) / norm(ray);
+  const double echo = kEchoAtOneMeter * brightness * incidence / dot(to_point, to_point);
+  return static_cast<float>(std::min(65535.0, std::floor(echo * speckle + 0.5)));
+}
+
 }  // namespace
 
 RgbdCloud make_tabletop(const TabletopOptions& options) {
   const Scene scene = make_scene(options.seed);
   // A stream of its own, so that the noise does not depend on how many draws the scene took.
   Random noise(options.seed ^ 0x5bd1e995u);
+  Random echo_noise(options.seed ^ 0x1b873593u);  // and another one: points and colors are as they were without echoes
   const double scale = static_cast<double>(options.width) / 640.0;
   const double focal_px = 525.0 * scale, disparity_scale = 575.0 * 0.075 * scale;
   const double center_u = 0.5 * (static_cast<double>(options.width) - 1.0);
@@ -206,6 +223,7 @@ RgbdCloud make_tabletop(const TabletopOptions& options) {
   cloud.height = options.height;
   cloud.xyz.reserve(3 * options.width * options.height);
   cloud.rgb.reserve(3 * options.width * options.height);
+  cloud.intensity.reserve(options.width * options.height);
   for (std::size_t v = 0; v < options.height; ++v) {
     const double y = (static_cast<double>(v) - center_v) / focal_px;
     for (std::size_t u = 0; u < options.width; ++u) {
@@ -218,6 +236,7 @@ RgbdCloud make_tabletop(const TabletopOptions& options) {
         cloud.xyz.push_back(z > 0.0 ? static_cast<float>(coordinate) : std::numeric_limits<float>::quiet_NaN());
       const Vec3 color = shaded_color(scene, ray, hit);
       for (const double channel : {color.x, color.y, color.z}) cloud.rgb.push_back(noisy_channel(noise, channel));
+      cloud.intensity.push_back(measured_echo(echo_noise, scene, ray, hit, z > 0.0));
     }
   }
   return cloud;

@@ -1,5 +1,5 @@
-// A seeded, ray-cast RGB-D view of a tabletop with Kinect-like noise: input for the demo, benchmarks and
-// tests when there is no recording at hand.
+// A seeded, ray-cast RGB-D view of a tabletop with Kinect-like noise, and the echoes of a time-of-flight camera: input
+// for the demo, benchmarks and tests when there is no recording at hand.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,9 @@ struct TabletopOptions {
 
 // An organized cloud (row-major, width x height) in the camera frame: x right, y down, z forward, the camera
 // at the origin, a pinhole with f = 525 * width / 640 and its center at ((width - 1) / 2, (height - 1) / 2).
-// Pixels without a measurement have NaN coordinates but still a color. The scene depends on the seed alone,
-// so two sizes show the same objects.
+// Pixels without a measurement have NaN coordinates and intensity 0 but still a color. Intensities are whole numbers
+// from 0 to 65535, as such cameras give them: how much of its own light comes back. The scene depends on the seed
+// alone, so two sizes show the same objects.
 //
 // The same options give the same bytes on every IEEE 754 platform: see the note at the top of
 // tabletop_solids.hpp.

@@ -98,14 +98,15 @@ TEST_CASE("a record that says nothing is refused") {
   CHECK_THROWS_WITH(parse_record(head + R"(, "instructions_per_neighbor": {"frame": 0}})"), "frame is not above zero");
 }
 
-TEST_CASE("the record of the project has search, frame, normals and five kernels for two instruction sets") {
+TEST_CASE("the record of the project has search, frame, normals and six kernels for two instruction sets") {
   std::ifstream in(SHORTSHOT_TEST_DATA "/../../bench/speed/instructions/expected.json");
   REQUIRE(in);
   const Record record = parse_record({std::istreambuf_iterator<char>(in), {}});
   std::vector<Figure> expected;
   for (const std::string isa : {"sse2", "avx2"}) {
-    for (const std::string stage : {"search grid ", "frame ", "normals ", "kernel Ssh32 ", "kernel Scsh336 ",
-                                    "kernel Scsh696 ", "kernel Shot352 ", "kernel Cshot1344 "}) {
+    for (const std::string stage :
+         {"search grid ", "frame ", "normals ", "kernel Ssh32 ", "kernel Scsh336 ", "kernel Scsh696 ",
+          "kernel Shot352 ", "kernel Cshot1344 ", "kernel IntensityShape336 "}) {
       expected.push_back({stage + isa, 1.0});
     }
   }

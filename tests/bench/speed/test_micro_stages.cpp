@@ -128,7 +128,7 @@ TEST_CASE("every build has the same stages, and they all run") {
   const std::vector<StageBuild> builds = build_stages(small_workload());
   REQUIRE(builds.size() == (cpu_has_avx2() ? 2 : 1));
   for (const StageBuild& build : builds) {
-    REQUIRE(build.stages.size() == 22);
+    REQUIRE(build.stages.size() == 24);
     for (std::size_t i = 0; i < build.stages.size(); ++i) {
       const Stage& stage = build.stages[i];
       CAPTURE(stage.name);
@@ -144,9 +144,10 @@ TEST_CASE("every build has the same stages, and they all run") {
   if (builds.size() == 2) CHECK(builds[1].isa == "avx2");
 }
 
-TEST_CASE("a cloud without colors has the stages that need none") {
+TEST_CASE("a cloud without colors and intensities has the stages that need none") {
   RgbdCloud scene = small_scene();
   scene.rgb.clear();
+  scene.intensity.clear();
   const Workload workload = make_workload(std::move(scene), {});
   const std::vector<StageBuild> builds = build_stages(workload);
   CHECK(builds[0].stages.size() == 15);
@@ -154,8 +155,19 @@ TEST_CASE("a cloud without colors has the stages that need none") {
     CAPTURE(stage.name);
     CHECK(stage.name.find("Scsh") == std::string::npos);
     CHECK(stage.name.find("Cshot") == std::string::npos);
+    CHECK(stage.name.find("Intensity") == std::string::npos);
     CHECK(stage.run() == shortshot::Status::ok);
   }
+}
+
+TEST_CASE("a cloud with intensities and no colors has their stages, too") {
+  RgbdCloud scene = small_scene();
+  scene.rgb.clear();
+  const Workload workload = make_workload(std::move(scene), {});
+  const std::vector<StageBuild> builds = build_stages(workload);
+  CHECK(builds[0].stages.size() == 17);
+  const auto is_intensity = [](const Stage& stage) { return stage.name == "kernel IntensityShape336"; };
+  CHECK(std::count_if(builds[0].stages.begin(), builds[0].stages.end(), is_intensity) == 1);
 }
 
 TEST_CASE("benchmarks report time, neighbors and bytes; instructions where the CPU's counter can be read") {

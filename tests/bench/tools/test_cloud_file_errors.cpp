@@ -107,6 +107,22 @@ TEST_CASE("cloud file errors: PCD header lines") {
        {{"DATA ascii\n1 2 3 4 5 6\n1 2 3 4 5 6\n", ""}, ":9: expected a DATA line, found the end of the file"}});
 }
 
+TEST_CASE("cloud file errors: PCD intensities") {
+  const std::string with_intensity = changed(ascii_pcd, {"rgb n", "rgb intensity"});
+  CHECK(error_of(with_intensity) == "FILE:2: expected COUNT 1 for field intensity, found COUNT 2");
+  const std::string good =
+      "FIELDS x y z intensity\nSIZE 4 4 4 1\nTYPE F F F U\nPOINTS 2\nDATA ascii\n1 2 3 255\n1 2 3 0\n";
+  check_messages(good,
+                 {{{"3 0", "3 1.5"}, ":7: expected a whole number from 0 to 255 for intensity, found '1.5'"},
+                  {{"3 255", "3 256"}, ":6: expected a whole number from 0 to 255 for intensity, found '256'"},
+                  {{"3 255", "3 nan"}, ":6: expected a whole number from 0 to 255 for intensity, found 'nan'"},
+                  {{"F U", "F I"}, ":6: expected a whole number from -128 to 127 for intensity, found '255'"},
+                  {{"4 4 4 1", "4 4 4 3"}, ":2: expected SIZE 1, 2, 4 or 8 (4 or 8 for TYPE F), found '3' for TYPE U"},
+                  {{"3 255", "3.000"}, ":6: expected 4 values for a point, found 3"}});
+  const std::string floats = changed(changed(good, {"4 4 4 1", "4 4 4 4"}), {"F U", "F F"});
+  check_messages(floats, {{{"255", "bright"}, ":6: expected a number for intensity, found 'bright'"}});
+}
+
 TEST_CASE("cloud file errors: PCD rows") {
   const std::string row = "1 2 3 4 5 6\n";
   const std::string two_rows = row + row;
@@ -189,6 +205,14 @@ TEST_CASE("cloud file errors: PLY rows and bytes") {
        {{"\n4 5 6\n", "00000\n"}, ":11: expected 2 rows of element 'vertex', found only 1 before the end of the file"},
        {{"vertex 2", "vertex 4000000000"},
         ":10: expected 4000000000 rows of at least 3 values, found only 12 bytes after this line"}});
+  const Change with_intensity{"float z\n", "float z\nproperty uchar intensity\n"};
+  CHECK(error_of(changed(changed(ascii_ply, with_intensity), {"1 2 3", "1 2 3.000"})) ==
+        "FILE:12: expected a value for 'intensity', found the end of the line");
+  const std::string dim = changed(changed(ascii_ply, with_intensity), {"1 2 3", "1 2 3 dim"});
+  CHECK(error_of(dim) == "FILE:12: expected a number for intensity, found 'dim'");
+  const std::string longer = changed(binary_ply, with_intensity);
+  CHECK(error_of(longer) == "FILE: byte " + std::to_string(longer.size() - 24) +
+                                ": expected 2 rows of element 'vertex' of at least 13 bytes, found only 24 bytes");
   const std::size_t begin = binary_ply.size() - 29;
   const auto byte = [&](std::size_t offset) { return ": byte " + std::to_string(begin + offset); };
   check_messages(

@@ -29,6 +29,8 @@ std::string problem_with(const std::string& path, const std::string& bytes) {
   try {
     const RgbdCloud cloud = shortshot_bench::read_cloud(path);
     if (cloud.xyz.size() != 3 * cloud.width * cloud.height) return "xyz has another size than the cloud";
+    if (!cloud.intensity.empty() && cloud.intensity.size() != cloud.size())
+      return "intensity has another size than xyz";
     if (!cloud.rgb.empty() && cloud.rgb.size() != cloud.xyz.size()) return "rgb has another size than xyz";
   } catch (const shortshot_bench::InputError& error) {
     if (std::string(error.what()).rfind(path + ":", 0) != 0) return "the message does not name the file";

@@ -23,8 +23,10 @@ void check_sample(const RgbdCloud& cloud) {
   const auto points = sample_points();
   REQUIRE(cloud.size() == points.size());
   REQUIRE(cloud.rgb.size() == 3 * points.size());
+  REQUIRE(cloud.intensity.size() == points.size());
   CHECK(cloud.has_colors());
   for (std::size_t i = 0; i < points.size(); ++i) {
+    CHECK(cloud.intensity[i] == static_cast<float>(points[i].intensity));
     for (std::size_t k = 0; k < 3; ++k) {
       CAPTURE(i);
       CAPTURE(k);
@@ -91,6 +93,7 @@ TEST_CASE("cloud files: PCD without color, VERSION and COUNT, with values that a
   CHECK(cloud.width == 2);
   CHECK(cloud.height == 1);
   CHECK_FALSE(cloud.has_colors());
+  CHECK_FALSE(cloud.has_intensities());
   CHECK(std::isnan(cloud.xyz[3]));
   CHECK(std::isinf(cloud.xyz[4]));
   CHECK(cloud.xyz[5] < 0);

@@ -39,6 +39,7 @@ TEST_CASE("the demo's command line: good ones go on, help ends well, bad ones en
   CHECK(exit_code_of({"a.pcd", "b.ply", "--descriptor", "ssh32", "--radius", "0.1", "--threads", "2"}) == -1);
   CHECK(exit_code_of({"a.pcd", "--out", "x.npy", "--search", "brute", "--check", "--towards-camera"}) == -1);
   CHECK(exit_code_of({"--help"}) == 0);
+  CHECK(exit_code_of({"--descriptor", "intensity336"}) == -1);
   CHECK(exit_code_of({"a.pcd", "--descriptor", "cshot1344", "--normal-radius", "0.02"}) == -1);
   for (const char* radius : {"0", "-1", "nan", "inf", "1e99", "", "4cm"}) {
     CAPTURE(radius);
@@ -58,12 +59,14 @@ TEST_CASE("the demo's command line: good ones go on, help ends well, bad ones en
 TEST_CASE("the demo describes the generated scene, and every search and thread count gives the same bits") {
   const RgbdCloud scene = small_scene();
   DemoOptions options;
-  for (const std::string descriptor : {"ssh32", "ssh96", "scsh336", "scsh696", "shot352", "cshot1344"}) {
+  for (const std::string descriptor :
+       {"ssh32", "ssh96", "scsh336", "scsh696", "intensity336", "shot352", "cshot1344"}) {
     CAPTURE(descriptor);
     options.descriptor = descriptor;
     const DemoResult result = run_demo(scene, options);
     CHECK(result.size == std::stoul(descriptor.substr(descriptor.find_first_of("0123456789"))));
-    CHECK(result.layout.size() == (descriptor[0] == 'c' || descriptor[1] == 'c' ? 2 : 1));
+    const bool shape_alone = descriptor == "shot352" || descriptor.substr(0, 3) == "ssh";
+    CHECK(result.layout.size() == (shape_alone ? 1 : 2));
     CHECK(result.normals.size() == (descriptor.find("shot") == std::string::npos ? 0 : scene.size()));
     REQUIRE(result.keypoints.size() > 1000);
     CHECK(result.values.size() == result.keypoints.size() * result.size);
@@ -74,8 +77,10 @@ TEST_CASE("the demo describes the generated scene, and every search and thread c
   CHECK(check_searches(scene, options));
   options.towards_camera = true;
   CHECK(check_searches(scene, options));
-  options.descriptor = "cshot1344";
-  CHECK(check_searches(scene, options));
+  for (const char* descriptor : {"cshot1344", "intensity336"}) {
+    options.descriptor = descriptor;
+    CHECK(check_searches(scene, options));
+  }
 }
 
 TEST_CASE(
@@ -113,6 +118,11 @@ TEST_CASE("the layout is told in the order of the values") {
         std::vector<std::string>{
             "occupancy: 8 azimuth x 4 elevation x 3 radial cells x 1 bins, the last index fastest",
             "color distance: 4 azimuth x 2 elevation x 2 radial cells x 15 bins, the last index fastest"});
+  options.descriptor = "intensity336";
+  CHECK(run_demo(small_scene(), options).layout ==
+        std::vector<std::string>{
+            "occupancy: 8 azimuth x 4 elevation x 3 radial cells x 1 bins, the last index fastest",
+            "intensity: 4 azimuth x 2 elevation x 2 radial cells x 15 bins, the last index fastest"});
 }
 
 TEST_CASE("a cloud that cannot be described is refused in the library's words, with a way out") {
@@ -121,6 +131,11 @@ TEST_CASE("a cloud that cannot be described is refused in the library's words, w
   DemoOptions options;
   CHECK_THROWS_WITH(run_demo(scene, options),
                     "the descriptor needs colors and the cloud has none (--descriptor ssh96 needs none)");
+  options.descriptor = "intensity336";
+  CHECK_NOTHROW(run_demo(scene, options));
+  scene.intensity.clear();
+  CHECK_THROWS_WITH(run_demo(scene, options),
+                    "the descriptor needs intensities and there are none (--descriptor ssh96 needs none)");
   options.descriptor = "ssh96";
   CHECK_NOTHROW(run_demo(scene, options));
   scene.width *= scene.height;

@@ -124,6 +124,34 @@ TEST_CASE("tabletop: there is color") {
   CHECK(saturated_hue > 500);
 }
 
+TEST_CASE(
+    "tabletop: echoes are whole numbers of 16 bits, none where nothing was measured, and vary like the surfaces") {
+  const RgbdCloud cloud = make_tabletop(small_scene(1));
+  REQUIRE(cloud.intensity.size() == cloud.size());
+  std::set<float> values;
+  double sums[2] = {0.0, 0.0};  // of near and of far points
+  std::size_t counts[2] = {0, 0};
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const float echo = cloud.intensity[i];
+    REQUIRE((echo >= 0.0f && echo <= 65535.0f && echo == std::floor(echo)));
+    const float z = depth(cloud, i);
+    REQUIRE((echo > 0.0f) == !std::isnan(z));
+    if (std::isnan(z)) continue;
+    values.insert(echo);
+    const std::size_t far = z > 1.0f ? 1 : 0;
+    sums[far] += static_cast<double>(echo);
+    ++counts[far];
+  }
+  CHECK(values.size() > 1000);
+  REQUIRE((counts[0] > 1000 && counts[1] > 100));
+  CHECK(sums[0] / static_cast<double>(counts[0]) > 2.0 * sums[1] / static_cast<double>(counts[1]));
+  CHECK(cloud.intensity == make_tabletop(small_scene(1)).intensity);
+  CHECK(cloud.intensity != make_tabletop(small_scene(2)).intensity);
+  std::vector<unsigned char> bytes(cloud.intensity.size() * sizeof(float));
+  std::memcpy(bytes.data(), cloud.intensity.data(), bytes.size());
+  CHECK(fnv1a(bytes) == 4602727893555402019u);
+}
+
 TEST_CASE("tabletop: without noise only the quantization of the disparity is left") {
   const std::vector<float> clean = bottom_row(make_tabletop(small_scene(1, 0.0f)));
   const std::vector<float> noisy = bottom_row(make_tabletop(small_scene(1)));

@@ -14,7 +14,7 @@ namespace {
 using namespace unit;
 using ss::Status;
 
-constexpr std::uint8_t type_uint8 = 2, type_uint32 = 6, type_float32 = 7, type_float64 = 8;
+constexpr std::uint8_t type_uint8 = 2, type_uint16 = 4, type_uint32 = 6, type_float32 = 7, type_float64 = 8;
 
 struct Field {
   std::string name;
@@ -155,6 +155,58 @@ TEST_CASE("PointCloud2: normals are three fields of their own, or none") {
       REQUIRE(ss::view_point_cloud2(other, view) == Status::ok);
       CHECK_FALSE(ss::has_normals(view));
     }
+  }
+}
+
+TEST_CASE("PointCloud2: intensities are floats, bytes or whole numbers of 16 bits, at any offset inside the point") {
+  const TestCloud cloud = sample();
+  Message m = message();
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint8_t* at = m.data.data() + i * m.point_step;
+    const auto word = static_cast<std::uint16_t>(1000 * i);
+    at[0] = static_cast<std::uint8_t>(4 * i);
+    std::memcpy(at + 5, &word, 2);
+  }
+  const auto read = [&](std::uint8_t type, std::uint32_t offset, std::size_t i) {
+    m.fields[0] = {"intensity", offset, type, 1};
+    ss::CloudView view{};
+    REQUIRE(ss::view_point_cloud2(m, view) == Status::ok);
+    REQUIRE(ss::has_intensities(view));
+    CHECK(ss::validate(view) == Status::ok);
+    return ss::intensity(view, i);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto word = static_cast<std::uint16_t>(1000 * i);
+    CHECK(read(type_uint8, 0, i) == static_cast<float>(4 * i % 256));
+    CHECK(read(type_uint8, 22, i) == static_cast<float>(m.data[i * m.point_step + 22]));  // the last byte of z
+    CHECK(read(type_uint16, 5, i) == static_cast<float>(word));
+    CHECK(read(type_float32, 7, i) == cloud.at(i).x);
+    CHECK(read(type_float32, 19, i) == cloud.at(i).z);
+  }
+}
+
+TEST_CASE("PointCloud2: a cloud without intensities, with ones of another type or outside the point, has none") {
+  const auto has_some = [](const Field& field) {
+    Message m = message();
+    m.fields[0] = field;
+    ss::CloudView view{};
+    REQUIRE(ss::view_point_cloud2(m, view) == Status::ok);
+    if (!ss::has_intensities(view)) CHECK_FALSE(ss::keypoint(view, 0).has_intensity);
+    check_reads_as_sample(m);  // the rest of the cloud is as good as ever
+    return ss::has_intensities(view);
+  };
+  CHECK(has_some({"intensity", 0, type_uint8, 1}));
+  CHECK_FALSE(has_some({"i", 0, type_uint8, 1}));
+  CHECK_FALSE(has_some({"reflectivity", 0, type_uint16, 1}));
+  for (const int type : {0, 1, 3, 5, 6, 8, 9, 255}) {
+    CAPTURE(type);
+    CHECK_FALSE(has_some({"intensity", 0, static_cast<std::uint8_t>(type), 1}));
+  }
+  for (const std::uint32_t beyond : {1u, 2u, 4u, 0xFFFFFFFFu - 22u}) {
+    CAPTURE(beyond);
+    CHECK_FALSE(has_some({"intensity", 22u + beyond, type_uint8, 1}));
+    CHECK_FALSE(has_some({"intensity", 21u + beyond, type_uint16, 1}));
+    CHECK_FALSE(has_some({"intensity", 19u + beyond, type_float32, 1}));
   }
 }
 
