@@ -1248,10 +1248,10 @@ enum class [[nodiscard]] Status : std::uint8_t {
   too_few_pairs,       ///< fewer than three correspondences
   no_pose,             ///< no rigid motion that at least three correspondences agree on
   not_trained,         ///< the recognizer has no training view with a descriptor
-  not_a_model,         ///< the bytes are no recognizer's
-  other_version,       ///< the model was written by a version with another format
-  other_descriptor,    ///< descriptors of another layout than the model was trained with
-  damaged_model,       ///< the model is truncated, or its checksum or contents are wrong
+  not_a_model,         ///< the bytes are no recognizer's, or no features', whichever was asked for
+  other_version,       ///< the file was written by a version with another format
+  other_descriptor,    ///< descriptors of another layout than the recognizer or the file has
+  damaged_model,       ///< the file is truncated, or its checksum or contents are wrong
   no_file,             ///< a file cannot be read or written
   missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
   unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
@@ -1287,10 +1287,10 @@ inline namespace SHORTSHOT_CODE {
     case Status::too_few_pairs: return "a pose takes three correspondences or more";
     case Status::no_pose: return "no rigid motion fits three correspondences or more";
     case Status::not_trained: return "the recognizer has no training view";
-    case Status::not_a_model: return "not a recognizer's model";
-    case Status::other_version: return "the model's format is of another version";
-    case Status::other_descriptor: return "the model was trained with another descriptor";
-    case Status::damaged_model: return "the model is damaged";
+    case Status::not_a_model: return "not a file of this kind";
+    case Status::other_version: return "the file's format is of another version";
+    case Status::other_descriptor: return "the file or the recognizer is of another descriptor";
+    case Status::damaged_model: return "the file is damaged";
     case Status::no_file: return "the file cannot be read or written";
     case Status::missing_intensities: return "the descriptor needs intensities and there are none";
     case Status::unsure_frame: return "other key points have surer frames";
@@ -8832,29 +8832,33 @@ template <class D, class Threads = unsigned>
 
 // shortshot/recognition/recognizer_model.hpp: a trained recognizer as bytes, or in a file. Hosted only: allocates.
 //
-// All numbers are little-endian, floats by their bits, counts and lengths 8 bytes:
+// Between what byte_stream.hpp puts around it ("SSHOTREC", the version and the checksum):
 //
-//     "SSHOTREC", 4 bytes format version
 //     layout (length, characters), values of a row
 //     options: 4 bytes each bandwidth, neighbors, most
 //     count of classes, for each: name (length, characters)
 //     count of instances, for each: 4 bytes class, name (length, characters)
 //     count of codewords, for each: 4 bytes instance, 3 floats center in the key point's frame
 //     values, row by row
-//     8 bytes checksum (64-bit FNV-1a) of all bytes before it
-//
-// FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
-// does once in 2^64 times. It is no protection from who means harm; load() believes no number because of it.
 #ifndef SHORTSHOT_RECOGNITION_RECOGNIZER_MODEL_HPP
 #define SHORTSHOT_RECOGNITION_RECOGNIZER_MODEL_HPP
 
-#include <cstdio>
+// shortshot/store/byte_stream.hpp: what all of the library's files have in common. Hosted only: allocates.
+//
+// All numbers are little-endian, floats by their bits, counts and lengths 8 bytes:
+//
+//     8 characters that say what it is, 4 bytes format version
+//     what is saved
+//     8 bytes checksum (64-bit FNV-1a) of all bytes before it
+//
+// FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
+// does once in 2^64 times. It is no protection from who means harm; nobody believes a number because of it.
+#ifndef SHORTSHOT_STORE_BYTE_STREAM_HPP
+#define SHORTSHOT_STORE_BYTE_STREAM_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-inline constexpr std::string_view model_magic = "SSHOTREC";
-inline constexpr std::uint32_t model_version = 1;
 inline constexpr std::size_t checksum_bytes = 8;
 
 [[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size) noexcept {
@@ -8863,18 +8867,38 @@ inline constexpr std::size_t checksum_bytes = 8;
   return hash;
 }
 
-class ModelWriter {
+/// What a file is: its first characters, and the version of the format.
+struct FileKind {
+  std::string_view magic;
+  std::uint32_t version;
+
+  [[nodiscard]] std::size_t header_bytes() const noexcept { return magic.size() + sizeof version; }
+};
+
+/// Writes a file into bytes. It is complete after finish().
+class ByteWriter {
  public:
-  explicit ModelWriter(std::vector<std::uint8_t>& bytes) noexcept : bytes_(bytes) {}
+  /// In place of whatever was there; `expected_bytes` saves allocations.
+  ByteWriter(std::vector<std::uint8_t>& bytes, const FileKind& kind, std::size_t expected_bytes) : bytes_(bytes) {
+    bytes.clear();
+    bytes.reserve(expected_bytes);
+    characters(kind.magic);
+    number(kind.version);
+  }
+  void finish() { number(checksum(bytes_.data(), bytes_.size())); }
 
   template <class Unsigned>
   void number(Unsigned value) {
-    number(value, sizeof value);
+    append(value, sizeof value);
   }
-  void count(std::size_t value) { number(std::uint64_t{value}); }
-  void real(float value) { number(math::bits_of(value)); }
-  void characters(std::string_view text) {
-    for (const char c : text) number(static_cast<std::uint8_t>(c));
+  void count(std::size_t value) { append(value, 8); }
+  void real(float value) { append(math::bits_of(value), sizeof value); }
+  [[gnu::noinline]] void reals(const float* values, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) real(values[i]);
+  }
+  void point(const Point& p) {
+    const float values[3] = {p.x, p.y, p.z};
+    reals(values, 3);
   }
   void name(std::string_view text) {
     count(text.size());
@@ -8882,7 +8906,10 @@ class ModelWriter {
   }
 
  private:
-  [[gnu::noinline]] void number(std::uint64_t value, std::size_t bytes) {
+  void characters(std::string_view text) {
+    for (const char c : text) append(static_cast<std::uint8_t>(c), 1);
+  }
+  [[gnu::noinline]] void append(std::uint64_t value, std::size_t bytes) {
     for (std::size_t k = 0; k < bytes; ++k) bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * k) & 0xFFu));
   }
 
@@ -8890,9 +8917,9 @@ class ModelWriter {
 };
 
 /// Reads what may be damaged: from the first thing on that cannot be, all is zero and good() false.
-class ModelReader {
+class ByteReader {
  public:
-  ModelReader(const std::uint8_t* bytes, std::size_t size) noexcept : at_(bytes), left_(size) {}
+  ByteReader(const std::uint8_t* bytes, std::size_t size) noexcept : at_(bytes), left_(size) {}
 
   [[nodiscard]] bool good() const noexcept { return good_; }
   [[nodiscard]] std::size_t left() const noexcept { return left_; }
@@ -8900,24 +8927,26 @@ class ModelReader {
 
   template <class Unsigned>
   [[nodiscard]] Unsigned number() noexcept {
-    const std::uint8_t* const bytes = take(sizeof(Unsigned));
-    Unsigned value = 0;
-    for (std::size_t k = sizeof value; good_ && k-- > 0;) value = static_cast<Unsigned>(value << 8 | bytes[k]);
-    return value;
+    return static_cast<Unsigned>(number_of(sizeof(Unsigned)));
   }
+  /// Any bits, those of NaN too.
+  [[nodiscard]] float any_real() noexcept { return math::float_of(number<std::uint32_t>()); }
   [[nodiscard]] float real() noexcept {
-    const float value = math::float_of(number<std::uint32_t>());
+    const float value = any_real();
     require(math::is_finite(value));
     return good_ ? value : 0.0f;
   }
+  [[gnu::noinline]] void reals(float* values, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) values[i] = real();
+  }
   [[nodiscard]] Point point() noexcept {
-    const float x = real();
-    const float y = real();
-    return {x, y, real()};
+    float values[3];
+    reals(values, 3);
+    return {values[0], values[1], values[2]};
   }
   /// How many there are of something that takes `least` bytes or more each: no more than the bytes that are left hold.
   [[nodiscard]] std::size_t count(std::size_t least) noexcept {
-    const auto value = number<std::uint64_t>();
+    const std::uint64_t value = number_of(8);
     require(value <= left_ / least);
     return good_ ? static_cast<std::size_t>(value) : 0;
   }
@@ -8934,6 +8963,12 @@ class ModelReader {
   }
 
  private:
+  [[nodiscard, gnu::noinline]] std::uint64_t number_of(std::size_t size) noexcept {
+    const std::uint8_t* const bytes = take(size);
+    std::uint64_t value = 0;
+    for (std::size_t k = size; good_ && k-- > 0;) value = value << 8 | bytes[k];
+    return value;
+  }
   [[nodiscard]] const std::uint8_t* take(std::size_t size) noexcept {
     require(size <= left_);
     if (!good_) return at_;
@@ -8947,38 +8982,130 @@ class ModelReader {
   bool good_ = true;
 };
 
-/// The C library's: <fstream> takes more time to compile than all that would be used of it.
-class File {
- public:
-  File(const std::string& path, const char* mode) noexcept : file_(std::fopen(path.c_str(), mode)) {}
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  ~File() { static_cast<void>(close()); }
-
-  [[nodiscard]] bool write(const std::vector<std::uint8_t>& bytes) noexcept {
-    return file_ != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
+/// Leaves `body` at what is saved, if the bytes around it are right; not_a_model, other_version or damaged_model (the
+/// bytes end early, or the checksum is wrong) if not, the first that applies.
+[[nodiscard]] inline Status open_checked(const std::uint8_t* bytes, std::size_t size, const FileKind& kind,
+                                         ByteReader& body) noexcept {
+  const std::size_t magic_bytes = kind.magic.size();
+  if (bytes == nullptr || size < magic_bytes) return Status::not_a_model;
+  for (std::size_t i = 0; i < magic_bytes; ++i) {
+    if (bytes[i] != static_cast<std::uint8_t>(kind.magic[i])) return Status::not_a_model;
   }
-  /// All that is left.
-  [[nodiscard]] bool read(std::vector<std::uint8_t>& bytes) {
-    if (file_ == nullptr) return false;
-    std::uint8_t block[4096];
-    while (const std::size_t count = std::fread(block, 1, sizeof block, file_)) {
-      bytes.insert(bytes.end(), block, block + count);
-    }
-    return std::ferror(file_) == 0;
-  }
-  /// Only then the last bytes are known to be written.
-  [[nodiscard]] bool close() noexcept {
-    const bool is_closed = file_ != nullptr && std::fclose(file_) == 0;
-    file_ = nullptr;
-    return is_closed;
-  }
+  ByteReader header(bytes + magic_bytes, size - magic_bytes);
+  const auto version = header.number<std::uint32_t>();
+  if (header.good() && version != kind.version) return Status::other_version;
+  if (header.left() < checksum_bytes) return Status::damaged_model;
+  const std::size_t checked_bytes = size - checksum_bytes;
+  ByteReader sum(bytes + checked_bytes, checksum_bytes);
+  if (sum.number<std::uint64_t>() != checksum(bytes, checked_bytes)) return Status::damaged_model;
+  body = ByteReader(bytes + kind.header_bytes(), checked_bytes - kind.header_bytes());
+  return Status::ok;
+}
 
- private:
-  std::FILE* file_;
-};
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_BYTE_STREAM_HPP
 
-inline void write(ModelWriter& to, const RecognizerOptions& options, const Codebook& codebook) {
+// shortshot/store/replace_file.hpp: files as a whole: all bytes of one, or new ones in its place. Hosted only.
+//
+// A file is never written to where it lies: a disk that is full, or a program that ends, would leave half of the new
+// file and nothing of the old one. What is new is written beside it, and then takes its name, which is one step.
+//
+// By the C library: <fstream> takes more time to compile than all that would be used of it.
+#ifndef SHORTSHOT_STORE_REPLACE_FILE_HPP
+#define SHORTSHOT_STORE_REPLACE_FILE_HPP
+
+#include <cerrno>
+#include <cstdio>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Makes a file that was not there before, of a name that nobody else has: "x" fails for one that is. Null, and no
+/// name, if there can be none. What programs that ended in between have left is never touched.
+[[nodiscard]] inline std::FILE* create_beside(const std::string& path, std::string& name) {
+  for (unsigned attempt = 0; attempt < 1000; ++attempt) {
+    name = path + ".tmp-" + std::to_string(attempt);
+    std::FILE* const file = std::fopen(name.c_str(), "wbx");
+    if (file != nullptr) return file;
+    if (errno != EEXIST) break;
+  }
+  name.clear();
+  return nullptr;
+}
+
+/// Can a file take that name? Not where a folder or a device is: a program with all rights could replace /dev/null.
+/// Whoever could read the old file can read the new one.
+[[nodiscard]] inline bool adopt_rights(const std::string& path, std::FILE* file) noexcept {
+#if defined(__unix__) || defined(__APPLE__)
+  struct stat old;
+  if (::stat(path.c_str(), &old) != 0) return true;  // there is none
+  return S_ISREG(old.st_mode) && ::fchmod(::fileno(file), old.st_mode & 07777) == 0;
+#else
+  static_cast<void>(path);
+  static_cast<void>(file);
+  return true;
+#endif
+}
+
+/// Only when the disk has it: a full one may say so as late as that.
+[[nodiscard]] inline bool flush_to_disk(std::FILE* file) noexcept {
+  if (std::fflush(file) != 0) return false;
+#if defined(__unix__) || defined(__APPLE__)
+  return ::fsync(::fileno(file)) == 0 || errno == EINVAL;  // EINVAL: a file system without
+#else
+  return true;
+#endif
+}
+
+/// Puts a file that has `bytes` in place of what is at `path`, or where nothing is. ok or no_file; then what was there
+/// still is, as it was, and nothing else is left. A symbolic link is replaced, not the file that it leads to.
+[[nodiscard]] inline Status replace_file(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+  std::string name;
+  std::FILE* const file = create_beside(path, name);
+  if (file == nullptr) return Status::no_file;
+  bool is_written = adopt_rights(path, file) && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() &&
+                    flush_to_disk(file);
+  is_written = std::fclose(file) == 0 && is_written;
+  if (is_written && std::rename(name.c_str(), path.c_str()) == 0) return Status::ok;
+#if defined(_WIN32)  // where a name that is in use cannot be taken over
+  if (is_written && std::remove(path.c_str()) == 0 && std::rename(name.c_str(), path.c_str()) == 0) return Status::ok;
+#endif
+  static_cast<void>(std::remove(name.c_str()));
+  return Status::no_file;
+}
+
+/// All bytes of a file. ok or no_file; `bytes` may be the first ones then.
+[[nodiscard]] inline Status read_file(const std::string& path, std::vector<std::uint8_t>& bytes) {
+  bytes.clear();
+  std::FILE* const file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) return Status::no_file;
+  struct Closer {
+    std::FILE* file;
+    ~Closer() { static_cast<void>(std::fclose(file)); }
+  } const closer{file};  // memory may be short
+  std::uint8_t block[4096];
+  while (const std::size_t count = std::fread(block, 1, sizeof block, file)) {
+    bytes.insert(bytes.end(), block, block + count);
+  }
+  return std::ferror(file) == 0 ? Status::ok : Status::no_file;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_REPLACE_FILE_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline constexpr FileKind recognizer_file{"SSHOTREC", 1};
+
+inline void write(ByteWriter& to, const RecognizerOptions& options, const Codebook& codebook) {
   to.name(codebook.layout);
   to.count(codebook.row_size);
   to.real(options.bandwidth);
@@ -8994,13 +9121,13 @@ inline void write(ModelWriter& to, const RecognizerOptions& options, const Codeb
   to.count(codebook.codewords.size());
   for (const Codebook::Codeword& codeword : codebook.codewords) {
     to.number(codeword.instance);
-    for (std::size_t axis = 0; axis < 3; ++axis) to.real(coordinate(codeword.center, axis));
+    to.point(codeword.center);
   }
-  for (const float value : codebook.values) to.real(value);
+  to.reals(codebook.values.data(), codebook.values.size());
 }
 
 /// False if not all of it can be: then what has been read is of no use.
-[[nodiscard]] inline bool read(ModelReader& from, RecognizerOptions& options, Codebook& codebook) {
+[[nodiscard]] inline bool read(ByteReader& from, RecognizerOptions& options, Codebook& codebook) {
   codebook.layout = from.name();
   codebook.row_size = from.count(sizeof(float));
   options.bandwidth = from.real();
@@ -9022,8 +9149,8 @@ inline void write(ModelWriter& to, const RecognizerOptions& options, const Codeb
   const std::size_t row_bytes = sizeof(float) * codebook.row_size;
   from.require(row_bytes > 0 && from.left() % row_bytes == 0 && from.left() / row_bytes == codewords);
   if (!from.good()) return false;
-  codebook.values.reserve(from.left() / sizeof(float));
-  while (from.left() > 0 && from.good()) codebook.values.push_back(from.real());
+  codebook.values.resize(codewords * codebook.row_size);
+  from.reals(codebook.values.data(), codebook.values.size());
   return from.good();
 }
 
@@ -9040,12 +9167,9 @@ inline namespace SHORTSHOT_CODE {
   if (recognizer.codeword_count() == 0) return Status::not_trained;
   if (validate(recognizer.options()) != Status::ok) return Status::bad_option;
   const std::size_t codeword_bytes = 16 + sizeof(float) * recognizer.row_size();
-  bytes.reserve(4096 + recognizer.codeword_count() * codeword_bytes);
-  detail::ModelWriter to(bytes);
-  to.characters(detail::model_magic);
-  to.number(detail::model_version);
+  detail::ByteWriter to(bytes, detail::recognizer_file, 4096 + recognizer.codeword_count() * codeword_bytes);
   detail::write(to, recognizer.options(), detail::RecognizerAccess::codebook(recognizer));
-  to.number(detail::checksum(bytes.data(), bytes.size()));
+  to.finish();
   return Status::ok;
 }
 
@@ -9056,23 +9180,12 @@ inline namespace SHORTSHOT_CODE {
 /// few times the bytes at the most, whatever they say.
 [[nodiscard]] inline Status load(const std::uint8_t* bytes, std::size_t size, std::string_view layout,
                                  Recognizer& out) {
-  constexpr std::size_t magic_bytes = detail::model_magic.size();
-  constexpr std::size_t header_bytes = magic_bytes + sizeof detail::model_version;
-  if (bytes == nullptr || size < magic_bytes || std::memcmp(bytes, detail::model_magic.data(), magic_bytes) != 0) {
-    return Status::not_a_model;
-  }
-  detail::ModelReader header(bytes + magic_bytes, size - magic_bytes);
-  const auto version = header.number<std::uint32_t>();
-  if (header.good() && version != detail::model_version) return Status::other_version;
-  if (header.left() < detail::checksum_bytes) return Status::damaged_model;
-  const std::size_t checked_bytes = size - detail::checksum_bytes;
-  detail::ModelReader checksum(bytes + checked_bytes, detail::checksum_bytes);
-  if (checksum.number<std::uint64_t>() != detail::checksum(bytes, checked_bytes)) return Status::damaged_model;
-
+  detail::ByteReader body(nullptr, 0);
+  const Status status = detail::open_checked(bytes, size, detail::recognizer_file, body);
+  if (status != Status::ok) return status;
   Recognizer loaded;
   detail::Codebook& codebook = detail::RecognizerAccess::codebook(loaded);
   RecognizerOptions options;
-  detail::ModelReader body(bytes + header_bytes, checked_bytes - header_bytes);
   if (!detail::read(body, options, codebook)) return Status::damaged_model;
   if (codebook.layout != layout) return Status::other_descriptor;
   loaded.set_options(options);
@@ -9080,26 +9193,235 @@ inline namespace SHORTSHOT_CODE {
   return Status::ok;
 }
 
-/// The same in a file, which is written anew. Also no_file: it cannot be opened, or not all of it written or read. If
-/// that happens to save(), the file may be damaged, and load() will say so.
+/// The same in a file. Also no_file: it cannot be opened, or not all of it written or read. If that happens to save()
+/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-0" (or -1,
+/// ...), and takes its name when it is complete. So there must be room for both, and its folder must be writable.
 [[nodiscard]] inline Status save(const Recognizer& recognizer, const std::string& path) {
   std::vector<std::uint8_t> bytes;
   const Status status = save(recognizer, bytes);
-  if (status != Status::ok) return status;
-  detail::File file(path, "wb");
-  const bool is_written = file.write(bytes);
-  return file.close() && is_written ? Status::ok : Status::no_file;
+  return status == Status::ok ? detail::replace_file(path, bytes) : status;
 }
 
 [[nodiscard]] inline Status load(const std::string& path, std::string_view layout, Recognizer& out) {
   std::vector<std::uint8_t> bytes;
-  detail::File file(path, "rb");
-  return file.read(bytes) ? load(bytes.data(), bytes.size(), layout, out) : Status::no_file;
+  const Status status = detail::read_file(path, bytes);
+  return status == Status::ok ? load(bytes.data(), bytes.size(), layout, out) : status;
 }
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_RECOGNITION_RECOGNIZER_MODEL_HPP
+
+// shortshot/store/features_file.hpp: what extract() gives as bytes, or in a file. Hosted only: allocates.
+//
+// Between what byte_stream.hpp puts around it ("SSHOTFEA", the version and the checksum), n rows of s values:
+//
+//     layout (length, characters), s, n
+//     values: n * s floats, row by row
+//     statuses: n bytes
+//     key points, for each: 3 floats position, float intensity, 3 bytes red, green, blue, 1 byte: 1 if there is a color
+//       plus 2 if there is an intensity
+//     frames: n * 9 floats, the x axis first
+//     frames' confidences: n * 3 floats (gap, margin of x, margin of z)
+//     neighbors: n * 4 bytes
+//
+// Numbers of statuses are part of the format: Status only ever grows at its end.
+#ifndef SHORTSHOT_STORE_FEATURES_FILE_HPP
+#define SHORTSHOT_STORE_FEATURES_FILE_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline constexpr FileKind features_file{"SSHOTFEA", 1};
+
+/// Of a row, without its values.
+inline constexpr std::size_t feature_bytes = 1 + (3 + 1) * sizeof(float) + 4 + (9 + 3) * sizeof(float) + 4;
+
+/// The vectors of a Features<D>, or of a const one: what follows is compiled once for all D.
+template <template <class> class MaybeConst>
+struct FeatureColumns {
+  std::string_view layout;
+  std::size_t row_size;
+  MaybeConst<std::vector<float>>& values;
+  MaybeConst<std::vector<Status>>& status;
+  MaybeConst<std::vector<KeyPoint>>& keypoints;
+  MaybeConst<std::vector<Frame>>& frames;
+  MaybeConst<std::vector<FrameConfidence>>& confidence;
+  MaybeConst<std::vector<std::uint32_t>>& neighbors;
+};
+template <class T>
+using Same = T;
+using ColumnsToSave = FeatureColumns<std::add_const_t>;
+using ColumnsToLoad = FeatureColumns<Same>;
+
+template <class Columns, class SomeFeatures>
+[[nodiscard]] Columns columns_of(SomeFeatures& features, std::string_view layout, std::size_t row_size) noexcept {
+  return {layout,
+          row_size,
+          features.values,
+          features.status,
+          features.keypoints,
+          features.frames,
+          features.frame_confidence,
+          features.neighbors};
+}
+
+/// What load() would take: as many of everything, and no value that is not finite. A key point's position and intensity
+/// may be anything: that is what its status says.
+[[nodiscard]] inline bool can_be_saved(const ColumnsToSave& from) noexcept {
+  const std::size_t count = from.status.size();
+  bool can = from.values.size() == count * from.row_size && from.keypoints.size() == count &&
+             from.frames.size() == count && from.confidence.size() == count && from.neighbors.size() == count;
+  for (const float value : from.values) can = can && math::is_finite(value);
+  for (const Status status : from.status) can = can && static_cast<int>(status) < status_count;
+  for (const Frame& frame : from.frames) {
+    can = can && math::is_finite(frame.x) && math::is_finite(frame.y) && math::is_finite(frame.z);
+  }
+  for (const FrameConfidence& c : from.confidence) {
+    can = can && is_finite(Point{c.eigenvalue_gap, c.x_margin, c.z_margin});
+  }
+  return can;
+}
+
+inline void write(ByteWriter& to, const ColumnsToSave& from) {
+  to.name(from.layout);
+  to.count(from.row_size);
+  to.count(from.status.size());
+  to.reals(from.values.data(), from.values.size());
+  for (const Status status : from.status) to.number(static_cast<std::uint8_t>(status));
+  for (const KeyPoint& key : from.keypoints) {
+    to.point(key.position);
+    to.real(key.intensity);
+    for (const std::uint8_t channel : {key.color.r, key.color.g, key.color.b}) to.number(channel);
+    to.number(static_cast<std::uint8_t>((key.has_color ? 1 : 0) + (key.has_intensity ? 2 : 0)));
+  }
+  for (const Frame& frame : from.frames) {
+    to.reals(frame.x, 3);
+    to.reals(frame.y, 3);
+    to.reals(frame.z, 3);
+  }
+  for (const FrameConfidence& c : from.confidence) to.point({c.eigenvalue_gap, c.x_margin, c.z_margin});
+  for (const std::uint32_t count : from.neighbors) to.number(count);
+}
+
+[[nodiscard]] inline Status read_status(ByteReader& from) noexcept {
+  const auto number = from.number<std::uint8_t>();
+  from.require(number < status_count);
+  return from.good() ? static_cast<Status>(number) : Status::ok;
+}
+
+[[nodiscard]] inline KeyPoint read_keypoint(ByteReader& from) noexcept {
+  KeyPoint key{};
+  for (float* value : {&key.position.x, &key.position.y, &key.position.z, &key.intensity}) *value = from.any_real();
+  for (std::uint8_t* channel : {&key.color.r, &key.color.g, &key.color.b}) *channel = from.number<std::uint8_t>();
+  const auto has = from.number<std::uint8_t>();
+  from.require(has < 4);
+  key.has_color = (has & 1u) != 0;
+  key.has_intensity = (has & 2u) != 0;
+  return key;
+}
+
+/// ok, other_descriptor or damaged_model; what is not ok may leave anything.
+[[nodiscard]] inline Status read(ByteReader& from, const ColumnsToLoad& to) {
+  const std::string layout = from.name();
+  const auto row_size = from.number<std::uint64_t>();
+  if (!from.good()) return Status::damaged_model;
+  if (layout != to.layout) return Status::other_descriptor;
+  from.require(row_size == to.row_size);
+  const std::size_t row_bytes = to.row_size * sizeof(float) + feature_bytes;
+  const std::size_t count = from.count(row_bytes);
+  from.require(from.left() == count * row_bytes);
+  if (!from.good()) return Status::damaged_model;
+  to.values.resize(count * to.row_size);
+  from.reals(to.values.data(), to.values.size());
+  to.status.reserve(count);
+  while (to.status.size() < count) to.status.push_back(read_status(from));
+  to.keypoints.reserve(count);
+  while (to.keypoints.size() < count) to.keypoints.push_back(read_keypoint(from));
+  to.frames.resize(count);
+  for (Frame& frame : to.frames) {
+    from.reals(frame.x, 3);
+    from.reals(frame.y, 3);
+    from.reals(frame.z, 3);
+  }
+  to.confidence.reserve(count);
+  while (to.confidence.size() < count) {
+    const Point c = from.point();
+    to.confidence.push_back({c.x, c.y, c.z});
+  }
+  to.neighbors.reserve(count);
+  while (to.neighbors.size() < count) to.neighbors.push_back(from.number<std::uint32_t>());
+  return from.good() ? Status::ok : Status::damaged_model;
+}
+
+/// Compiled once, as load_columns() is.
+[[nodiscard]] inline Status save_columns(const ColumnsToSave& from, std::vector<std::uint8_t>& bytes) {
+  bytes.clear();
+  if (!can_be_saved(from)) return Status::bad_rows;
+  const std::size_t row_bytes = from.row_size * sizeof(float) + feature_bytes;
+  ByteWriter to(bytes, features_file, 4096 + from.status.size() * row_bytes);
+  write(to, from);
+  to.finish();
+  return Status::ok;
+}
+[[nodiscard]] inline Status load_columns(const std::uint8_t* bytes, std::size_t size, const ColumnsToLoad& to) {
+  ByteReader body(nullptr, 0);
+  const Status status = open_checked(bytes, size, features_file, body);
+  return status == Status::ok ? read(body, to) : status;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// What extract() gave, as bytes: the same ones on every machine, 4 * D::size + 73 for a row and some hundred more.
+///
+/// Statuses: bad_rows (vectors that are not as long as each other, as extract() makes them; values, frames or
+/// confidences that are not finite); `bytes` is empty then. Allocates the bytes. Reentrant.
+template <class D>
+[[nodiscard]] Status save(const Features<D>& features, std::vector<std::uint8_t>& bytes) {
+  const std::string layout = layout_of<D>();
+  return detail::save_columns(detail::columns_of<detail::ColumnsToSave>(features, layout, std::size_t{D::size}), bytes);
+}
+
+/// The features that save() made these bytes of, bit for bit. What layout_of<D>() does not say (radii, how frames were
+/// turned) is for the caller to know.
+///
+/// Statuses, the first one that applies: not_a_model (no features' bytes), other_version, damaged_model (the bytes end
+/// early, or go on; the checksum is wrong), other_descriptor (of another layout than D's), damaged_model (the bytes are
+/// not what save() writes). `out` has not changed then. Allocates about as much as there are bytes, whatever they say.
+/// Reentrant.
+template <class D>
+[[nodiscard]] Status load(const std::uint8_t* bytes, std::size_t size, Features<D>& out) {
+  const std::string layout = layout_of<D>();
+  Features<D> loaded;
+  const Status status = detail::load_columns(
+      bytes, size, detail::columns_of<detail::ColumnsToLoad>(loaded, layout, std::size_t{D::size}));
+  if (status == Status::ok) out = std::move(loaded);
+  return status;
+}
+
+/// The same in a file. Also no_file: it cannot be opened, or not all of it written or read. If that happens to save()
+/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-0" (or -1,
+/// ...), and takes its name when it is complete. So there must be room for both, and its folder must be writable.
+template <class D>
+[[nodiscard]] Status save(const Features<D>& features, const std::string& path) {
+  std::vector<std::uint8_t> bytes;
+  const Status status = save(features, bytes);
+  return status == Status::ok ? detail::replace_file(path, bytes) : status;
+}
+template <class D>
+[[nodiscard]] Status load(const std::string& path, Features<D>& out) {
+  std::vector<std::uint8_t> bytes;
+  const Status status = detail::read_file(path, bytes);
+  return status == Status::ok ? load(bytes.data(), bytes.size(), out) : status;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_STORE_FEATURES_FILE_HPP
 #endif
 
 #if defined(NANOFLANN_VERSION)

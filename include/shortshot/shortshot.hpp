@@ -27,6 +27,7 @@
 #include "recognition/recognize.hpp"
 #include "recognition/recognizer_model.hpp"
 #include "search/grid_search.hpp"
+#include "store/features_file.hpp"
 #endif
 
 #if defined(NANOFLANN_VERSION)
