@@ -7545,16 +7545,23 @@ template <class D>
 }  // namespace shortshot
 #endif  // SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
 
-// shortshot/recognition/match.hpp: the nearest descriptors of another set, exactly, and pairs that are each other's
-// nearest. Hosted only: allocates, starts threads.
-//
-// |a - b|^2 = |a|^2 + |b|^2 - 2 ab makes of all distances one matrix product, 1.4 (SSE2) to 1.7 (AVX2) times as fast as
-// squared differences blocked in the same way, but cancellation costs it digits where rows are close. So the product
-// only rules out: where, by a bound on its rounding, a row may be nearer than the best so far, the distance is computed
-// again as a sum of squared differences, and that decides. In rows of no particular order that is so for about
-// log(count) rows of each query.
+// shortshot/recognition/match.hpp: the nearest descriptors of another set, exactly; pairs that are each other's
+// nearest; and those that are nearer than all others by far. Hosted only: allocates, starts threads.
 #ifndef SHORTSHOT_RECOGNITION_MATCH_HPP
 #define SHORTSHOT_RECOGNITION_MATCH_HPP
+
+// shortshot/recognition/compare_rows.hpp: which pairs of rows may be near each other, for match.hpp. Hosted only:
+// allocates, starts threads.
+//
+// |a - b|^2 = |a|^2 + |b|^2 - 2 ab makes of all distances of floats one matrix product, 1.4 (SSE2) to 1.7 (AVX2) times
+// as fast as squared differences blocked in the same way, but cancellation costs it digits where rows are close. So the
+// product only rules out: where, by a bound on its rounding, a row may be nearer than the best so far, the distance is
+// computed again as a sum of squared differences, and that decides. In rows of no particular order that is so for about
+// log(count) rows of each query.
+//
+// Of rows in any other format every pair is compared.
+#ifndef SHORTSHOT_RECOGNITION_COMPARE_ROWS_HPP
+#define SHORTSHOT_RECOGNITION_COMPARE_ROWS_HPP
 
 // shortshot/recognition/descriptor_rows.hpp: borrowed rows of descriptors, as matching and recognition take them.
 // Hosted only.
@@ -7611,13 +7618,57 @@ template <class D>
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-[[nodiscard]] inline bool is_ok(const DescriptorRows& rows, std::size_t row) noexcept {
+template <class Rows>
+[[nodiscard]] bool is_ok(const Rows& rows, std::size_t row) noexcept {
   return rows.status == nullptr || rows.status[row] == Status::ok;
 }
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_RECOGNITION_DESCRIPTOR_ROWS_HPP
+
+// shortshot/recognition/l2_distance.hpp: the distance of two rows of floats, with the same bits on every machine.
+#ifndef SHORTSHOT_RECOGNITION_L2_DISTANCE_HPP
+#define SHORTSHOT_RECOGNITION_L2_DISTANCE_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// The sum of (a[i] - b[i])^2 for two rows of `size` floats. In eight sums, whatever the number of lanes, for the same
+/// bits on every machine: sum k has values k, k + 8, ...; then ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)). 0 for a size
+/// of 0. No allocation, no error, reentrant; NaN and infinity go through.
+[[nodiscard]] inline float squared_l2_distance(const float* a, const float* b, std::size_t size) noexcept {
+  namespace simd = extend::simd;
+  constexpr std::size_t width = 8;
+  static_assert(width % simd::lanes == 0, "whole registers");
+  simd::F32 lanes[width / simd::lanes] = {};
+  const auto add = [&lanes](const float* x, const float* y) {
+    for (std::size_t k = 0; k < width; k += simd::lanes) {
+      const simd::F32 difference = simd::load(x + k) - simd::load(y + k);
+      lanes[k / simd::lanes] = lanes[k / simd::lanes] + difference * difference;
+    }
+  };
+  const std::size_t whole = size - size % width;
+  for (std::size_t i = 0; i < whole; i += width) add(a + i, b + i);
+  float rest[2][width] = {};
+  for (std::size_t i = whole; i < size; ++i) {
+    rest[0][i - whole] = a[i];
+    rest[1][i - whole] = b[i];
+  }
+  add(rest[0], rest[1]);
+  float sums[width];
+  for (std::size_t k = 0; k < width; k += simd::lanes) simd::store(sums + k, lanes[k / simd::lanes]);
+  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+}
+
+/// The L2 distance, which is Match::distance for rows of floats: the root of it, exactly rounded.
+[[nodiscard]] inline float l2_distance(const float* a, const float* b, std::size_t size) noexcept {
+  return extend::simd::sqrt(squared_l2_distance(a, b, size));
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_RECOGNITION_L2_DISTANCE_HPP
 
 // shortshot/recognition/products.hpp: products of the rows of one matrix with those of another, for match.hpp.
 //
@@ -7676,27 +7727,98 @@ struct PanelProducts {
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_RECOGNITION_PRODUCTS_HPP
 
-namespace shortshot {
+// shortshot/recognition/row_format.hpp: what rows of descriptors must have to be matched: for who stores them in a
+// format of their own.
+#ifndef SHORTSHOT_RECOGNITION_ROW_FORMAT_HPP
+#define SHORTSHOT_RECOGNITION_ROW_FORMAT_HPP
+
+namespace shortshot::detail {
 inline namespace SHORTSHOT_TYPES {
 
-/// In place of a row's number where there is none.
-inline constexpr std::uint32_t no_row = 0xFFFFFFFFu;
+template <class Rows, class = void>
+struct HasCount : std::false_type {};
+template <class Rows>
+struct HasCount<Rows, std::void_t<decltype(static_cast<std::size_t>(std::declval<const Rows&>().count))>>
+    : std::true_type {};
 
-/// A row of the database and its distance (L2) from the query.
-struct Match {
-  std::uint32_t row;
-  float distance;
+template <class Rows, class = void>
+struct HasStatus : std::false_type {};
+template <class Rows>
+struct HasStatus<Rows, std::void_t<decltype(std::declval<const Rows&>().status)>>
+    : std::is_convertible<decltype(std::declval<const Rows&>().status), const Status*> {};
+
+template <class Rows, class = void>
+struct HasFits : std::false_type {};
+template <class Rows>
+struct HasFits<Rows, std::void_t<decltype(std::declval<const Rows&>().fits(std::declval<const Rows&>()))>>
+    : std::is_convertible<decltype(std::declval<const Rows&>().fits(std::declval<const Rows&>())), bool> {};
+
+template <class Rows, class = void>
+struct RowsNumber {
+  using type = void;
+};
+template <class Rows>
+struct RowsNumber<Rows, std::void_t<decltype(std::declval<const Rows&>().compare(
+                            std::size_t{}, std::declval<const Rows&>(), std::size_t{}))>> {
+  using type = decltype(std::declval<const Rows&>().compare(std::size_t{}, std::declval<const Rows&>(), std::size_t{}));
 };
 
-/// A row of each of two sets, and their distance (L2).
-struct MatchedPair {
-  std::uint32_t source;
-  std::uint32_t target;
-  float distance;
-};
+template <class Rows, class = void>
+struct HasDistance : std::false_type {};
+template <class Rows>
+struct HasDistance<
+    Rows, std::void_t<decltype(std::declval<const Rows&>().distance(std::declval<typename RowsNumber<Rows>::type>()))>>
+    : std::is_convertible<
+          decltype(std::declval<const Rows&>().distance(std::declval<typename RowsNumber<Rows>::type>())), float> {};
 
 }  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot
+}  // namespace shortshot::detail
+
+namespace shortshot::extend {
+inline namespace SHORTSHOT_TYPES {
+
+/// Can Rows be given to nearest(), reciprocal_correspondences() and ratio_correspondences()? They take whatever has
+///
+///     struct Rows {  // borrowed: copied, and asked by several threads at the same time
+///       std::size_t count;             // how many there are
+///       const shortshot::Status* status;  // one per row: those that are not ok are left out; null: all are ok
+///       bool fits(const Rows& other) const;  // can they be compared? bad_rows if not
+///       Number compare(std::size_t row, const Rows& other, std::size_t others_row) const;
+///       float distance(Number compared) const;  // what Match::distance says of it
+///     };
+///
+/// compare() gives an integer or a float that is the larger the farther away: a sum of squares saves the root of each
+/// pair. It is less than the largest one of its type; a row for which it is that, or NaN, is nobody's match. ByteRows
+/// and BitRows are made like that, and rows of floats (DescriptorRows) compared faster, by matrix products.
+template <class Rows>
+inline constexpr bool is_row_format =
+    detail::HasCount<Rows>::value&& detail::HasStatus<Rows>::value&& detail::HasFits<Rows>::value&&
+        std::is_arithmetic<typename detail::RowsNumber<Rows>::type>::value&& detail::HasDistance<Rows>::value;
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::extend
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
+
+/// Says what is missing.
+template <class Rows>
+constexpr void require_row_format() noexcept {
+  static_assert(HasCount<Rows>::value, "matching supports rows with `std::size_t count`: see extend::is_row_format");
+  static_assert(HasStatus<Rows>::value,
+                "matching supports rows with `const Status* status`: see extend::is_row_format");
+  static_assert(HasFits<Rows>::value,
+                "matching supports rows with `bool fits(const Rows& other) const`: see extend::is_row_format");
+  static_assert(std::is_arithmetic<typename RowsNumber<Rows>::type>::value,
+                "matching supports rows with `Number compare(std::size_t row, const Rows& other, std::size_t "
+                "others_row) const`, an integer or a float: see extend::is_row_format");
+  static_assert(!std::is_arithmetic<typename RowsNumber<Rows>::type>::value || HasDistance<Rows>::value,
+                "matching supports rows with `float distance(Number compared) const`: see extend::is_row_format");
+}
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_ROW_FORMAT_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -7710,36 +7832,17 @@ static_assert(query_block % panel_rows == 0 && row_block % tile_rows == 0, "whol
 /// More than twice any squared distance; finite, so that nothing here depends on how infinities compare.
 inline constexpr float out_of_reach = std::numeric_limits<float>::max();
 
-/// In eight sums, whatever the number of lanes, for the same bits on every machine.
-[[nodiscard]] inline float squared_distance(const float* a, const float* b, std::size_t size) noexcept {
-  constexpr std::size_t width = 8;
-  static_assert(width % simd::lanes == 0, "whole registers");
-  simd::F32 lanes[width / simd::lanes] = {};
-  const auto add = [&lanes](const float* x, const float* y) {
-    for (std::size_t k = 0; k < width; k += simd::lanes) {
-      const simd::F32 difference = simd::load(x + k) - simd::load(y + k);
-      lanes[k / simd::lanes] = lanes[k / simd::lanes] + difference * difference;
-    }
-  };
-  const std::size_t whole = size - size % width;
-  for (std::size_t i = 0; i < whole; i += width) add(a + i, b + i);
-  float rest[2][width] = {};
-  std::copy(a + whole, a + size, rest[0]);
-  std::copy(b + whole, b + size, rest[1]);
-  add(rest[0], rest[1]);
-  float sums[width];
-  for (std::size_t k = 0; k < width; k += simd::lanes) simd::store(sums + k, lanes[k / simd::lanes]);
-  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
-}
-
 /// Rows with half of their squared norms, each less its share of the rounding: half_norm(a) + half_norm(b) - (the
-/// product ab) is not above half of squared_distance(a, b), in whatever order the product was summed up.
+/// product ab) is not above half of squared_l2_distance(a, b), in whatever order the product was summed up.
 ///
 /// A sum of n products errs by n 2^-24 |a| |b| at most (to first order), hence the two norms and twice the product
-/// together by 2 n 2^-24 (|a|^2 + |b|^2), and squared_distance(), which is not above 2 (|a|^2 + |b|^2), by as much
+/// together by 2 n 2^-24 (|a|^2 + |b|^2), and squared_l2_distance(), which is not above 2 (|a|^2 + |b|^2), by as much
 /// again. 5 instead of 4 makes up for higher orders, 16 for the few other operations, min() for squares that underflow.
 class ComparedRows {
  public:
+  using Number = float;
+  static constexpr Number farthest = out_of_reach;
+
   explicit ComparedRows(const DescriptorRows& rows)
       : rows_(rows), origin_(rows.size), half_norms_(whole_panels(rows.count), out_of_reach) {
     const auto size = static_cast<float>(rows.size);
@@ -7747,7 +7850,7 @@ class ComparedRows {
     const float underflow = size * std::numeric_limits<float>::min();
     for (std::size_t i = 0; i < rows.count; ++i) {
       if (!is_ok(rows, i)) continue;
-      const float norm = squared_distance(at(i), origin_.data(), rows.size);
+      const float norm = squared_l2_distance(at(i), origin_.data(), rows.size);
       if (math::is_finite(8.0f * norm)) half_norms_[i] = unfused(0.5f * kept * norm) - underflow;
     }
   }
@@ -7760,9 +7863,8 @@ class ComparedRows {
   [[nodiscard]] std::size_t size() const noexcept { return rows_.size; }
   [[nodiscard]] const float* half_norm(std::size_t row) const noexcept { return half_norms_.data() + row; }
   [[nodiscard]] bool takes_part(std::size_t row) const noexcept { return half_norms_[row] < out_of_reach; }
-  [[nodiscard]] float squared_distance_to(const ComparedRows& other, std::size_t row,
-                                          std::size_t others_row) const noexcept {
-    return squared_distance(at(row), other.at(others_row), rows_.size);
+  [[nodiscard]] float compare(std::size_t row, const ComparedRows& other, std::size_t others_row) const noexcept {
+    return squared_l2_distance(at(row), other.at(others_row), rows_.size);
   }
 
   /// Zeros for rows that take no part.
@@ -7785,13 +7887,6 @@ class ComparedRows {
   std::vector<float> origin_;
   std::vector<float> half_norms_;
 };
-
-/// ok or bad_rows.
-[[nodiscard]] inline Status check_comparable(const DescriptorRows& a, const DescriptorRows& b) noexcept {
-  const bool numbered = a.count < no_row && b.count < no_row;
-  return validate(a) == Status::ok && validate(b) == Status::ok && a.size == b.size && numbered ? Status::ok
-                                                                                                : Status::bad_rows;
-}
 
 /// Shares blocks of queries among threads. compare(thread, first, row, products) is called for panels of queries, from
 /// `first` on, with their products with a row of the database that takes part; one thread gets queries in ascending
@@ -7840,21 +7935,308 @@ void for_candidates(const ComparedRows& queries, std::size_t first, float half_n
   }
 }
 
-/// Puts a match that is nearer than the last of k, which are in ascending order, behind those that are as near.
-inline void insert(Match* best, std::size_t k, const Match& match) noexcept {
-  std::size_t at = k - 1;
-  for (; at > 0 && match.distance < best[at - 1].distance; --at) best[at] = best[at - 1];
-  best[at] = match;
+/// What of each query's best so far its products are compared with.
+class QueryLimits {
+ public:
+  explicit QueryLimits(const ComparedRows& queries)
+      : halves_(ComparedRows::whole_panels(queries.count()), 0.5f * out_of_reach) {}
+  void set(std::size_t query, float squared_distance) noexcept { halves_[query] = 0.5f * squared_distance; }
+  [[nodiscard]] simd::F32 halves(std::size_t query) const noexcept { return simd::load(halves_.data() + query); }
+
+ private:
+  std::vector<float> halves_;
+};
+
+/// Calls consider(thread, query, row) for all pairs that take part and are nearer than what `limits` has for the query,
+/// or row_limit(thread, row) for the row, and for others; in the order of for_products().
+template <class Executor, class RowLimit, class Consider>
+void for_near(Executor& executor, std::size_t team, const ComparedRows& queries, const ComparedRows& database,
+              const QueryLimits& limits, const RowLimit& row_limit, const Consider& consider) {
+  const auto compare = [&](std::size_t thread, std::size_t first, std::size_t row, const PanelProducts& products) {
+    const simd::F32 half_of_row = simd::all(0.5f * row_limit(thread, row));
+    const auto halves = [&](std::size_t query) { return simd::max(limits.halves(query), half_of_row); };
+    for_candidates(queries, first, *database.half_norm(row), products, halves,
+                   [&](std::size_t query) { consider(thread, query, row); });
+  };
+  for_products(executor, team, queries, database, compare);
 }
 
-/// The nearest match of each of `count` rows, among those that all threads have seen, to where the first one's is.
-inline void merge(std::vector<Match>& seen, std::size_t count) noexcept {
-  for (std::size_t i = count; i < seen.size(); ++i) {
-    const Match& match = seen[i];
-    Match& best = seen[i % count];
-    const bool nearer = match.distance < best.distance;
-    if (nearer || (match.distance == best.distance && match.row < best.row)) best = match;
+/// Rows in any format, with the same functions.
+template <class Rows>
+class AnyRows {
+ public:
+  using Number = typename RowsNumber<Rows>::type;
+  static constexpr Number farthest = std::numeric_limits<Number>::max();
+
+  explicit AnyRows(const Rows& rows) noexcept : rows_(rows) {}
+  [[nodiscard]] std::size_t count() const noexcept { return rows_.count; }
+  [[nodiscard]] bool takes_part(std::size_t row) const noexcept { return is_ok(rows_, row); }
+  [[nodiscard]] Number compare(std::size_t row, const AnyRows& other, std::size_t others_row) const {
+    return rows_.compare(row, other.rows_, others_row);
   }
+
+ private:
+  const Rows& rows_;
+};
+
+struct NoLimits {
+  template <class Rows>
+  explicit NoLimits(const AnyRows<Rows>&) noexcept {}
+  template <class Number>
+  void set(std::size_t, Number) noexcept {}
+};
+
+template <class Executor, class Rows, class RowLimit, class Consider>
+void for_near(Executor& executor, std::size_t team, const AnyRows<Rows>& queries, const AnyRows<Rows>& database,
+              const NoLimits&, const RowLimit&, const Consider& consider) {
+  const auto compare_block = [&](std::size_t thread, std::size_t begin, std::size_t end) {
+    for (std::size_t first = 0; first < database.count(); first += row_block) {
+      const std::size_t last = std::min(first + row_block, database.count());
+      for (std::size_t query = begin; query < end; ++query) {
+        if (!queries.takes_part(query)) continue;
+        for (std::size_t row = first; row < last; ++row) {
+          if (database.takes_part(row)) consider(thread, query, row);
+        }
+      }
+    }
+  };
+  for_blocks(executor, team, queries.count(), query_block, compare_block);
+}
+
+/// How rows of a format are compared.
+template <class Rows>
+struct Comparison {
+  using Compared = AnyRows<Rows>;
+  using Limits = NoLimits;
+  [[nodiscard]] static bool fit(const Rows& a, const Rows& b) { return a.fits(b); }
+  template <class Number>
+  [[nodiscard]] static float distance(const Rows& rows, Number compared) {
+    return rows.distance(compared);
+  }
+};
+template <>
+struct Comparison<DescriptorRows> {
+  using Compared = ComparedRows;
+  using Limits = QueryLimits;
+  [[nodiscard]] static bool fit(const DescriptorRows& a, const DescriptorRows& b) noexcept {
+    return validate(a) == Status::ok && validate(b) == Status::ok && a.size == b.size;
+  }
+  [[nodiscard]] static float distance(const DescriptorRows&, float compared) noexcept { return simd::sqrt(compared); }
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_COMPARE_ROWS_HPP
+
+// shortshot/recognition/packed_rows.hpp: borrowed rows of bytes and of bits, which are matched as rows of floats are.
+// Hosted only.
+//
+// Their distances are integers before they become Match::distance, hence the same on every machine, and ties are
+// exactly that.
+#ifndef SHORTSHOT_RECOGNITION_PACKED_ROWS_HPP
+#define SHORTSHOT_RECOGNITION_PACKED_ROWS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// For up to 66051 bytes. In pieces of a fixed length, which compilers turn into lanes at -O2, too.
+[[nodiscard]] inline std::uint32_t squared_byte_distance(const std::uint8_t* a, const std::uint8_t* b,
+                                                         std::size_t size) noexcept {
+  constexpr std::size_t width = 32;
+  std::uint32_t sum = 0;
+  std::size_t i = 0;
+  for (; i + width <= size; i += width) {
+    std::int32_t part = 0;
+    for (std::size_t k = 0; k < width; ++k) {
+      const auto difference = static_cast<std::int16_t>(a[i + k] - b[i + k]);
+      part += difference * difference;
+    }
+    sum += static_cast<std::uint32_t>(part);
+  }
+  for (; i < size; ++i) {
+    const std::int32_t difference = std::int32_t{a[i]} - std::int32_t{b[i]};
+    sum += static_cast<std::uint32_t>(difference * difference);
+  }
+  return sum;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// `count` descriptors of `size` bytes each (1 to 66051), row by row without gaps, as quantize() makes them. Borrowed.
+/// Their distance is the L2 distance of the descriptors, ByteDescriptor's step times the root of the sum of squares.
+struct ByteRows {
+  static constexpr float step = 1.0f / 512.0f;  ///< that of ByteDescriptor<D>, whatever D
+
+  const std::uint8_t* values;  ///< count * size
+  std::size_t count;           ///< number of rows
+  std::size_t size;            ///< bytes in a row
+  const Status* status;        ///< one per row: those that are not ok are left out; null: all are ok
+
+  [[nodiscard, gnu::always_inline]] bool fits(const ByteRows& other) const noexcept {
+    return size == other.size && size > 0 && size <= 66051 && (count == 0 || values != nullptr) &&
+           (other.count == 0 || other.values != nullptr);
+  }
+  /// The squared distance of the bytes.
+  [[nodiscard, gnu::always_inline]] std::uint32_t compare(std::size_t row, const ByteRows& other,
+                                                          std::size_t others_row) const noexcept {
+    return detail::squared_byte_distance(values + row * size, other.values + others_row * size, size);
+  }
+  [[nodiscard, gnu::always_inline]] float distance(std::uint32_t compared) const noexcept {
+    return step * extend::simd::sqrt(static_cast<float>(compared));
+  }
+};
+
+/// `count` descriptors of `size` bytes of bits each (1 to 66051), row by row without gaps, as binarize() makes them.
+/// Borrowed. Their distance is the number of bits in which they differ (Hamming).
+struct BitRows {
+  const std::uint8_t* bytes;  ///< count * size
+  std::size_t count;          ///< number of rows
+  std::size_t size;           ///< bytes in a row
+  const Status* status;       ///< one per row: those that are not ok are left out; null: all are ok
+
+  [[nodiscard, gnu::always_inline]] bool fits(const BitRows& other) const noexcept {
+    return size == other.size && size > 0 && size <= 66051 && (count == 0 || bytes != nullptr) &&
+           (other.count == 0 || other.bytes != nullptr);
+  }
+  [[nodiscard, gnu::always_inline]] std::uint32_t compare(std::size_t row, const BitRows& other,
+                                                          std::size_t others_row) const noexcept {
+    return static_cast<std::uint32_t>(hamming_distance(bytes + row * size, other.bytes + others_row * size, size));
+  }
+  [[nodiscard, gnu::always_inline]] float distance(std::uint32_t compared) const noexcept {
+    return static_cast<float>(compared);
+  }
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// Descriptors as bytes, or as bits, which must outlive the rows. `status` has one for each, as Features::status of
+/// what they were made from: rows that are not ok hold zeros, which should not match. Null: all are ok.
+template <class D>
+[[nodiscard]] ByteRows rows_of(const std::vector<ByteDescriptor<D>>& descriptors,
+                               const Status* status = nullptr) noexcept {
+  static_assert(sizeof(ByteDescriptor<D>) == ByteDescriptor<D>::size_bytes, "rows without gaps");
+  static_assert(ByteDescriptor<D>::step == ByteRows::step, "distances in the units of the descriptor");
+  return {reinterpret_cast<const std::uint8_t*>(descriptors.data()), descriptors.size(), ByteDescriptor<D>::size_bytes,
+          status};
+}
+template <class D, int Group>
+[[nodiscard]] BitRows rows_of(const std::vector<BinaryDescriptor<D, Group>>& descriptors,
+                              const Status* status = nullptr) noexcept {
+  using Bits = BinaryDescriptor<D, Group>;
+  static_assert(sizeof(Bits) == Bits::size_bytes, "rows without gaps");
+  return {reinterpret_cast<const std::uint8_t*>(descriptors.data()), descriptors.size(), Bits::size_bytes, status};
+}
+
+/// ok or bad_rows, as for rows of floats.
+[[nodiscard]] inline Status validate(const ByteRows& rows) noexcept {
+  return rows.fits(rows) ? Status::ok : Status::bad_rows;
+}
+[[nodiscard]] inline Status validate(const BitRows& rows) noexcept {
+  return rows.fits(rows) ? Status::ok : Status::bad_rows;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_RECOGNITION_PACKED_ROWS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// In place of a row's number where there is none.
+inline constexpr std::uint32_t no_row = 0xFFFFFFFFu;
+
+/// A row of the database and its distance from the query.
+struct Match {
+  std::uint32_t row;
+  float distance;
+};
+
+/// A row of each of two sets, and their distance.
+struct MatchedPair {
+  std::uint32_t source;
+  std::uint32_t target;
+  float distance;
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// A match before its number became a distance.
+template <class Number>
+struct Candidate {
+  std::uint32_t row;
+  Number compared;
+};
+
+template <class Rows, class Number>
+[[nodiscard]] float distance_of(const Rows& rows, const Candidate<Number>& candidate) {
+  if (candidate.row == no_row) return std::numeric_limits<float>::infinity();
+  return Comparison<Rows>::distance(rows, candidate.compared);
+}
+
+/// ok or bad_rows.
+template <class Rows>
+[[nodiscard]] Status check_comparable(const Rows& a, const Rows& b) {
+  if constexpr (!std::is_same<Rows, DescriptorRows>::value) require_row_format<Rows>();
+  const bool numbered = a.count < no_row && b.count < no_row;
+  return numbered && Comparison<Rows>::fit(a, b) ? Status::ok : Status::bad_rows;
+}
+
+template <class Executor>
+[[nodiscard]] std::size_t team_of(const Executor& executor) {
+  return std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
+}
+
+/// Blocks of queries, of which there are `count`.
+[[nodiscard]] inline std::size_t query_blocks(std::size_t count) noexcept {
+  return (count + query_block - 1) / query_block;
+}
+
+/// Puts a candidate that is nearer than the last of k, which are in ascending order, behind those that are as near.
+template <class Number>
+void insert(Candidate<Number>* best, std::size_t k, const Candidate<Number>& candidate) noexcept {
+  std::size_t at = k - 1;
+  for (; at > 0 && candidate.compared < best[at - 1].compared; --at) best[at] = best[at - 1];
+  best[at] = candidate;
+}
+
+/// The nearest candidate of each of `count` rows, among those that all threads have seen, to where the first one's is.
+template <class Number>
+void merge(std::vector<Candidate<Number>>& seen, std::size_t count) noexcept {
+  for (std::size_t i = count; i < seen.size(); ++i) {
+    const Candidate<Number>& candidate = seen[i];
+    Candidate<Number>& best = seen[i % count];
+    const bool nearer = candidate.compared < best.compared;
+    if (nearer || (candidate.compared == best.compared && candidate.row < best.row)) best = candidate;
+  }
+}
+
+/// k for each query, nearest first; no_row where there is none.
+template <class Rows, class Executor>
+[[nodiscard]] auto nearest_candidates(const Rows& queries, const Rows& database, std::size_t k, Executor& executor) {
+  using Compared = typename Comparison<Rows>::Compared;
+  using Number = typename Compared::Number;
+  const Compared from(queries);
+  const Compared to(database);
+  typename Comparison<Rows>::Limits limits(from);
+  std::vector<Candidate<Number>> best(queries.count * k, {no_row, Compared::farthest});
+  const auto no_limit = [](std::size_t, std::size_t) { return Number{}; };
+  for_near(executor, team_of(executor), from, to, limits, no_limit, [&](std::size_t, std::size_t q, std::size_t row) {
+    Candidate<Number>* const of_query = best.data() + q * k;
+    const Number compared = from.compare(q, to, row);
+    if (!(compared < of_query[k - 1].compared)) return;
+    insert(of_query, k, {static_cast<std::uint32_t>(row), compared});
+    limits.set(q, of_query[k - 1].compared);
+  });
+  return best;
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -7864,92 +8246,110 @@ namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
 /// The k nearest rows of the database for each query, nearest first; of rows at the same distance the first ones come
-/// first. Exact: as if all distances were computed as sums of squared differences in float, in a fixed order.
+/// first. Exact: as if all distances were computed.
 ///
+/// `queries`, `database`  DescriptorRows, ByteRows or BitRows (see rows_of()), or rows in a format of your own
+///            (extend::is_row_format). Distances are L2 for floats (sums of squared differences in float, in a fixed
+///            order: l2_distance()) and for bytes, Hamming for bits
 /// `k`        from 1 on; meant to be small (an insertion costs O(k))
 /// `out`      queries.count * k: those of query i from out[i * k] on. {no_row, infinity} where the database has too few
-///            rows that take part, or where the query does not. A row takes part if its status is ok and its squared
-///            norm is finite and below 4e37
+///            rows that take part, or where the query does not. A row takes part if its status is ok; one of floats, if
+///            its squared norm is finite and below 4e37 besides
 /// `threads`  how many threads share the work, or an executor (see extract()); the result is the same, bit for bit, for
 ///            any number, and on every machine
 ///
 /// Statuses: bad_rows (null pointers, rows of different or no length, 2^32 - 1 rows or more), bad_option (k, or more
-/// results than memory has room for); `out` is empty then. O(queries.count * database.count * size), at the speed of
-/// Eigen's matrix product; a database in the order of falling distances, or of copies, costs a sum of squared
-/// differences for each pair on top of it. Allocates `out`, 8 bytes for each query, 4 for each row of the database, and
-/// 512 for each value of a row and each thread. May throw what extract() may.
-template <class Threads = unsigned>
-[[nodiscard]] Status nearest(const DescriptorRows& queries, const DescriptorRows& database, std::size_t k,
-                             std::vector<Match>& out, Threads&& threads = 1u) {
+/// results than memory has room for); `out` is empty then. O(queries.count * database.count * size), for floats at the
+/// speed of Eigen's matrix product; a database in the order of falling distances, or of copies, costs a sum of squared
+/// differences for each pair on top of it. Allocates `out` twice; for floats also 8 bytes for each query, 4 for each
+/// row of the database, and 512 for each value of a row and each thread. May throw what extract() may.
+template <class Rows = DescriptorRows, class Threads = unsigned>
+[[nodiscard]] Status nearest(const Rows& queries, const Rows& database, std::size_t k, std::vector<Match>& out,
+                             Threads&& threads = 1u) {
   out.clear();
   const Status usable = detail::check_comparable(queries, database);
   if (usable != Status::ok) return usable;
-  if (k == 0 || queries.count > out.max_size() / k) return Status::bad_option;
+  if (k == 0 || queries.count > out.max_size() / 2 / k) return Status::bad_option;
 
-  out.assign(queries.count * k, {no_row, detail::out_of_reach});
-  const detail::ComparedRows from(queries);
-  const detail::ComparedRows to(database);
-  std::vector<float> half_worst(detail::ComparedRows::whole_panels(queries.count), 0.5f * detail::out_of_reach);
-  auto&& executor = detail::executor_of(threads, (queries.count + detail::query_block - 1) / detail::query_block);
-  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-  const auto limits = [&](std::size_t q) { return extend::simd::load(half_worst.data() + q); };
-  const auto compare = [&](std::size_t, std::size_t first, std::size_t row, const detail::PanelProducts& products) {
-    detail::for_candidates(from, first, *to.half_norm(row), products, limits, [&](std::size_t q) {
-      Match* const best = out.data() + q * k;
-      const float distance = from.squared_distance_to(to, q, row);
-      if (!(distance < best[k - 1].distance)) return;
-      detail::insert(best, k, {static_cast<std::uint32_t>(row), distance});
-      half_worst[q] = 0.5f * best[k - 1].distance;
-    });
-  };
-  detail::for_products(executor, team, from, to, compare);
-  for (Match& match : out) {
-    match.distance = match.row == no_row ? std::numeric_limits<float>::infinity() : extend::simd::sqrt(match.distance);
-  }
+  auto&& executor = detail::executor_of(threads, detail::query_blocks(queries.count));
+  const auto best = detail::nearest_candidates(queries, database, k, executor);
+  out.reserve(best.size());
+  for (const auto& candidate : best) out.push_back({candidate.row, detail::distance_of(queries, candidate)});
   return Status::ok;
 }
 
 /// The pairs of rows that are each other's nearest neighbor as nearest() has it, in ascending order of the source: one
-/// pass over the products gives both directions.
+/// pass over all pairs gives both directions.
 ///
-/// `threads`, statuses, the rows that take part, cost and memory: as for nearest(). Allocates 8 bytes more for each row
-/// of the source, and for each row of the target and each thread.
-template <class Threads = unsigned>
-[[nodiscard]] Status reciprocal_correspondences(const DescriptorRows& source, const DescriptorRows& target,
-                                                std::vector<MatchedPair>& out, Threads&& threads = 1u) {
+/// Formats of rows, `threads`, statuses, the rows that take part and cost: as for nearest(). Allocates `out`, 8 bytes
+/// for each row of the source, and for each row of the target and each thread; for floats what nearest() does besides.
+template <class Rows = DescriptorRows, class Threads = unsigned>
+[[nodiscard]] Status reciprocal_correspondences(const Rows& source, const Rows& target, std::vector<MatchedPair>& out,
+                                                Threads&& threads = 1u) {
+  using Compared = typename detail::Comparison<Rows>::Compared;
+  using Number = typename Compared::Number;
   out.clear();
   const Status usable = detail::check_comparable(source, target);
   if (usable != Status::ok) return usable;
 
-  const detail::ComparedRows from(source);
-  const detail::ComparedRows to(target);
-  auto&& executor = detail::executor_of(threads, (source.count + detail::query_block - 1) / detail::query_block);
-  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-  const Match none{no_row, detail::out_of_reach};
-  std::vector<Match> of_source(source.count, none);
-  std::vector<float> half_worst(detail::ComparedRows::whole_panels(source.count), 0.5f * detail::out_of_reach);
-  std::vector<Match> of_target(team * target.count, none);  // what each thread has seen, one after the other
-  const auto compare = [&](std::size_t thread, std::size_t first, std::size_t t,
-                           const detail::PanelProducts& products) {
-    Match& nearest_source = of_target[thread * target.count + t];
-    const extend::simd::F32 half_distance = extend::simd::all(0.5f * nearest_source.distance);
-    const auto limits = [&](std::size_t s) {
-      return extend::simd::max(extend::simd::load(half_worst.data() + s), half_distance);
-    };
-    detail::for_candidates(from, first, *to.half_norm(t), products, limits, [&](std::size_t s) {
-      const float distance = from.squared_distance_to(to, s, t);
-      if (distance < nearest_source.distance) nearest_source = {static_cast<std::uint32_t>(s), distance};
-      if (!(distance < of_source[s].distance)) return;
-      of_source[s] = {static_cast<std::uint32_t>(t), distance};
-      half_worst[s] = 0.5f * distance;
-    });
+  const Compared from(source);
+  const Compared to(target);
+  auto&& executor = detail::executor_of(threads, detail::query_blocks(source.count));
+  const std::size_t team = detail::team_of(executor);
+  const detail::Candidate<Number> none{no_row, Compared::farthest};
+  typename detail::Comparison<Rows>::Limits limits(from);
+  std::vector<detail::Candidate<Number>> of_source(source.count, none);
+  std::vector<detail::Candidate<Number>> of_target(team * target.count, none);  // what each thread has seen
+  const auto limit_of = [&](std::size_t thread, std::size_t t) {
+    return of_target[thread * target.count + t].compared;
   };
-  detail::for_products(executor, team, from, to, compare);
+  const auto consider = [&](std::size_t thread, std::size_t s, std::size_t t) {
+    const Number compared = from.compare(s, to, t);
+    detail::Candidate<Number>& nearest_source = of_target[thread * target.count + t];
+    if (compared < nearest_source.compared) nearest_source = {static_cast<std::uint32_t>(s), compared};
+    if (!(compared < of_source[s].compared)) return;
+    of_source[s] = {static_cast<std::uint32_t>(t), compared};
+    limits.set(s, compared);
+  };
+  detail::for_near(executor, team, from, to, limits, limit_of, consider);
   detail::merge(of_target, target.count);
   for (std::size_t s = 0; s < source.count; ++s) {
-    const Match& match = of_source[s];
-    if (match.row == no_row || of_target[match.row].row != s) continue;
-    out.push_back({static_cast<std::uint32_t>(s), match.row, extend::simd::sqrt(match.distance)});
+    const detail::Candidate<Number>& candidate = of_source[s];
+    if (candidate.row == no_row || of_target[candidate.row].row != s) continue;
+    out.push_back({static_cast<std::uint32_t>(s), candidate.row, detail::distance_of(source, candidate)});
+  }
+  return Status::ok;
+}
+
+/// The pairs of each row of the source with its nearest one of the target, as nearest() has it, that are told from all
+/// others: the distance is below `ratio` times that of the second nearest. In ascending order of the source.
+///
+/// After D. Lowe: Distinctive image features from scale-invariant keypoints (IJCV 60, 2004), where 0.8 is the ratio.
+///
+/// `ratio`  above 0, at most 1, which leaves out only rows whose two nearest are as near. Distances are compared as
+///          Match has them, the product rounded to float: the same pairs on every machine. A target of fewer than two
+///          rows that take part has no second nearest, and there is no pair: nothing says that one would be right
+///
+/// Formats of rows, `threads`, the rows that take part and cost: as for nearest(). Statuses: bad_rows, as there, and
+/// bad_option (ratio); `out` is empty then. Allocates `out`, 16 bytes for each row of the source, and for floats what
+/// nearest() does besides.
+template <class Rows = DescriptorRows, class Threads = unsigned>
+[[nodiscard]] Status ratio_correspondences(const Rows& source, const Rows& target, float ratio,
+                                           std::vector<MatchedPair>& out, Threads&& threads = 1u) {
+  out.clear();
+  const Status usable = detail::check_comparable(source, target);
+  if (usable != Status::ok) return usable;
+  if (!(ratio > 0.0f && ratio <= 1.0f)) return Status::bad_option;
+
+  auto&& executor = detail::executor_of(threads, detail::query_blocks(source.count));
+  const auto best = detail::nearest_candidates(source, target, 2, executor);
+  for (std::size_t s = 0; s < source.count; ++s) {
+    const auto& first = best[2 * s];
+    const auto& second = best[2 * s + 1];
+    if (second.row == no_row) continue;
+    const float distance = detail::distance_of(source, first);
+    if (!(distance < extend::unfused(ratio * detail::distance_of(source, second)))) continue;
+    out.push_back({static_cast<std::uint32_t>(s), first.row, distance});
   }
   return Status::ok;
 }

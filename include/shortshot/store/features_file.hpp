@@ -27,7 +27,6 @@
 #include "../cloud/keypoint.hpp"
 #include "../config.hpp"
 #include "../descriptor/layout_text.hpp"
-#include "../frame/frame.hpp"
 #include "../status.hpp"
 #include "byte_stream.hpp"
 #include "replace_file.hpp"
