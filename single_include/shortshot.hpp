@@ -7829,6 +7829,13 @@ inline constexpr std::size_t query_block = 128;
 inline constexpr std::size_t row_block = 96;
 static_assert(query_block % panel_rows == 0 && row_block % tile_rows == 0, "whole tiles");
 
+/// A match before what was compared became a distance.
+template <class Number>
+struct Candidate {
+  std::uint32_t row;
+  Number compared;
+};
+
 /// More than twice any squared distance; finite, so that nothing here depends on how infinities compare.
 inline constexpr float out_of_reach = std::numeric_limits<float>::max();
 
@@ -7947,18 +7954,35 @@ class QueryLimits {
   std::vector<float> halves_;
 };
 
-/// Calls consider(thread, query, row) for all pairs that take part and are nearer than what `limits` has for the query,
-/// or row_limit(thread, row) for the row, and for others; in the order of for_products().
-template <class Executor, class RowLimit, class Consider>
-void for_near(Executor& executor, std::size_t team, const ComparedRows& queries, const ComparedRows& database,
-              const QueryLimits& limits, const RowLimit& row_limit, const Consider& consider) {
-  const auto compare = [&](std::size_t thread, std::size_t first, std::size_t row, const PanelProducts& products) {
-    const simd::F32 half_of_row = simd::all(0.5f * row_limit(thread, row));
+/// Of the products that for_products() calls it with, those of pairs that may be near: nearer than `limits` has for the
+/// query, or what `best_of_rows` (null: nothing) has for the row. One type for all that is done with them, because they
+/// are few, and what is around them takes a compiler its time.
+struct NearPairs {
+  const ComparedRows& queries;
+  const ComparedRows& database;
+  const QueryLimits& limits;
+  const Candidate<float>* best_of_rows;  // as many for each thread as there are rows
+  void (*consider)(const void* considering, std::size_t thread, std::size_t query, std::size_t row);
+  const void* considering;
+
+  void operator()(std::size_t thread, std::size_t first, std::size_t row, const PanelProducts& products) const {
+    const float of_row = best_of_rows != nullptr ? best_of_rows[thread * database.count() + row].compared : 0.0f;
+    const simd::F32 half_of_row = simd::all(0.5f * of_row);
     const auto halves = [&](std::size_t query) { return simd::max(limits.halves(query), half_of_row); };
     for_candidates(queries, first, *database.half_norm(row), products, halves,
-                   [&](std::size_t query) { consider(thread, query, row); });
+                   [&](std::size_t query) { consider(considering, thread, query, row); });
+  }
+};
+
+/// Calls consider(thread, query, row) for all pairs that take part and are nearer than the best so far, of the query or
+/// (if there is one) of the row, and for others; in the order of for_products().
+template <class Executor, class Consider>
+void for_near(Executor& executor, std::size_t team, const ComparedRows& queries, const ComparedRows& database,
+              const QueryLimits& limits, const Candidate<float>* best_of_rows, const Consider& consider) {
+  const auto call = [](const void* considering, std::size_t thread, std::size_t query, std::size_t row) {
+    (*static_cast<const Consider*>(considering))(thread, query, row);
   };
-  for_products(executor, team, queries, database, compare);
+  for_products(executor, team, queries, database, NearPairs{queries, database, limits, best_of_rows, call, &consider});
 }
 
 /// Rows in any format, with the same functions.
@@ -7986,9 +8010,9 @@ struct NoLimits {
   void set(std::size_t, Number) noexcept {}
 };
 
-template <class Executor, class Rows, class RowLimit, class Consider>
+template <class Executor, class Rows, class Consider>
 void for_near(Executor& executor, std::size_t team, const AnyRows<Rows>& queries, const AnyRows<Rows>& database,
-              const NoLimits&, const RowLimit&, const Consider& consider) {
+              const NoLimits&, const Candidate<typename AnyRows<Rows>::Number>*, const Consider& consider) {
   const auto compare_block = [&](std::size_t thread, std::size_t begin, std::size_t end) {
     for (std::size_t first = 0; first < database.count(); first += row_block) {
       const std::size_t last = std::min(first + row_block, database.count());
@@ -8169,13 +8193,6 @@ struct MatchedPair {
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// A match before its number became a distance.
-template <class Number>
-struct Candidate {
-  std::uint32_t row;
-  Number compared;
-};
-
 template <class Rows, class Number>
 [[nodiscard]] float distance_of(const Rows& rows, const Candidate<Number>& candidate) {
   if (candidate.row == no_row) return std::numeric_limits<float>::infinity();
@@ -8228,8 +8245,7 @@ template <class Rows, class Executor>
   const Compared to(database);
   typename Comparison<Rows>::Limits limits(from);
   std::vector<Candidate<Number>> best(queries.count * k, {no_row, Compared::farthest});
-  const auto no_limit = [](std::size_t, std::size_t) { return Number{}; };
-  for_near(executor, team_of(executor), from, to, limits, no_limit, [&](std::size_t, std::size_t q, std::size_t row) {
+  for_near(executor, team_of(executor), from, to, limits, nullptr, [&](std::size_t, std::size_t q, std::size_t row) {
     Candidate<Number>* const of_query = best.data() + q * k;
     const Number compared = from.compare(q, to, row);
     if (!(compared < of_query[k - 1].compared)) return;
@@ -8300,9 +8316,6 @@ template <class Rows = DescriptorRows, class Threads = unsigned>
   typename detail::Comparison<Rows>::Limits limits(from);
   std::vector<detail::Candidate<Number>> of_source(source.count, none);
   std::vector<detail::Candidate<Number>> of_target(team * target.count, none);  // what each thread has seen
-  const auto limit_of = [&](std::size_t thread, std::size_t t) {
-    return of_target[thread * target.count + t].compared;
-  };
   const auto consider = [&](std::size_t thread, std::size_t s, std::size_t t) {
     const Number compared = from.compare(s, to, t);
     detail::Candidate<Number>& nearest_source = of_target[thread * target.count + t];
@@ -8311,7 +8324,7 @@ template <class Rows = DescriptorRows, class Threads = unsigned>
     of_source[s] = {static_cast<std::uint32_t>(t), compared};
     limits.set(s, compared);
   };
-  detail::for_near(executor, team, from, to, limits, limit_of, consider);
+  detail::for_near(executor, team, from, to, limits, of_target.data(), consider);
   detail::merge(of_target, target.count);
   for (std::size_t s = 0; s < source.count; ++s) {
     const detail::Candidate<Number>& candidate = of_source[s];
@@ -8739,7 +8752,10 @@ struct Codebook {
 inline namespace SHORTSHOT_CODE {
 
 [[nodiscard]] inline bool is_finite(const float* values, std::size_t count) noexcept {
-  return std::all_of(values, values + count, [](float value) { return math::is_finite(value); });
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!math::is_finite(values[i])) return false;
+  }
+  return true;
 }
 
 /// Rows that there are, and descriptors that can be compared: all of their values are finite. ok or bad_rows.
@@ -8787,21 +8803,22 @@ inline namespace SHORTSHOT_CODE {
 
 /// The number of a class, or of an instance; a new one if there is none of that name.
 [[nodiscard]] inline std::uint32_t class_number(Codebook& codebook, std::string_view name) {
-  std::vector<std::string>& classes = codebook.classes;
-  const auto found = std::find(classes.begin(), classes.end(), name);
-  const auto number = static_cast<std::uint32_t>(found - classes.begin());
-  if (found == classes.end()) classes.emplace_back(name);
-  return number;
+  const std::size_t count = codebook.classes.size();
+  std::size_t number = 0;
+  while (number < count && codebook.classes[number] != name) ++number;
+  if (number == count) codebook.classes.emplace_back(name);
+  return static_cast<std::uint32_t>(number);
 }
 [[nodiscard]] inline std::uint32_t instance_number(Codebook& codebook, std::uint32_t object_class,
                                                    std::string_view name) {
-  std::vector<Codebook::Instance>& instances = codebook.instances;
-  const auto found = std::find_if(instances.begin(), instances.end(), [&](const Codebook::Instance& instance) {
+  const std::size_t count = codebook.instances.size();
+  std::size_t number = 0;
+  const auto is_it = [&](const Codebook::Instance& instance) {
     return instance.object_class == object_class && instance.name == name;
-  });
-  const auto number = static_cast<std::uint32_t>(found - instances.begin());
-  if (found == instances.end()) instances.push_back({object_class, std::string(name)});
-  return number;
+  };
+  while (number < count && !is_it(codebook.instances[number])) ++number;
+  if (number == count) codebook.instances.push_back({object_class, std::string(name)});
+  return static_cast<std::uint32_t>(number);
 }
 
 /// Adds the rows, which were validated, of an object of which `center` is the center. All or nothing.
@@ -8822,8 +8839,9 @@ inline namespace SHORTSHOT_CODE {
   const std::uint32_t number = instance_number(codebook, class_number(codebook, object_class), instance);
   for (std::size_t row = 0; row < descriptors.count; ++row) {
     if (!is_ok(descriptors, row)) continue;
-    const float* from = descriptors.values + row * descriptors.size;
-    codebook.values.insert(codebook.values.end(), from, from + descriptors.size);
+    const std::size_t old_size = codebook.values.size();
+    codebook.values.resize(old_size + descriptors.size);
+    std::copy_n(descriptors.values + row * descriptors.size, descriptors.size, codebook.values.data() + old_size);
     codebook.codewords.push_back({number, centers[row]});
   }
   return Status::ok;
@@ -9081,12 +9099,20 @@ template <class Threads>
   return sorted;
 }
 
+/// The first of the votes whose class is not below another.
+[[nodiscard]] inline const Vote* first_of_class(const std::vector<Vote>& votes, std::uint32_t object_class) noexcept {
+  std::size_t low = 0;
+  std::size_t high = votes.size();
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    votes[middle].object_class < object_class ? low = middle + 1 : high = middle;
+  }
+  return votes.data() + low;
+}
+
 [[nodiscard]] inline VoteDensity density_for(const Recognizer& recognizer, const std::vector<Vote>& votes,
                                              std::uint32_t object_class) {
-  const auto has_class_below = [](const Vote& vote, std::uint32_t end) { return vote.object_class < end; };
-  const auto begin = std::lower_bound(votes.begin(), votes.end(), object_class, has_class_below);
-  const auto end = std::lower_bound(begin, votes.end(), object_class + 1, has_class_below);
-  return {votes.data() + (begin - votes.begin()), votes.data() + (end - votes.begin()), recognizer.options().bandwidth};
+  return {first_of_class(votes, object_class), first_of_class(votes, object_class + 1), recognizer.options().bandwidth};
 }
 
 /// The instance whose votes have the largest sum of weights at a place; the first trained one of those.
@@ -9094,7 +9120,9 @@ template <class Threads>
                                                      const Point& at) {
   std::vector<float> sums(recognizer.instance_count(), 0.0f);
   for (const Vote& vote : density) sums[vote.instance] += density.weight(vote, at);
-  return static_cast<std::uint32_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+  std::size_t heaviest = 0;
+  for (std::size_t i = 1; i < sums.size(); ++i) heaviest = sums[i] > sums[heaviest] ? i : heaviest;
+  return static_cast<std::uint32_t>(heaviest);
 }
 
 /// Hypotheses from the peak that each vote has climbed to, densest first; of equal ones, as the votes are ordered.
@@ -9429,8 +9457,11 @@ inline namespace SHORTSHOT_CODE {
 /// Makes a file that was not there before, of a name that nobody else has: "x" fails for one that is. Null, and no
 /// name, if there can be none. What programs that ended in between have left is never touched.
 [[nodiscard]] inline std::FILE* create_beside(const std::string& path, std::string& name) {
-  for (unsigned attempt = 0; attempt < 1000; ++attempt) {
-    name = path + ".tmp-" + std::to_string(attempt);
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    name = path;
+    name += ".tmp-";
+    name += static_cast<char>('0' + attempt / 10);
+    name += static_cast<char>('0' + attempt % 10);
     std::FILE* const file = std::fopen(name.c_str(), "wbx");
     if (file != nullptr) return file;
     if (errno != EEXIST) break;
@@ -9594,7 +9625,7 @@ inline namespace SHORTSHOT_CODE {
 }
 
 /// The same in a file. Also no_file: it cannot be opened, or not all of it written or read. If that happens to save()
-/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-0" (or -1,
+/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-00" (or 01,
 /// ...), and takes its name when it is complete. So there must be room for both, and its folder must be writable.
 [[nodiscard]] inline Status save(const Recognizer& recognizer, const std::string& path) {
   std::vector<std::uint8_t> bytes;
@@ -9637,7 +9668,8 @@ inline constexpr FileKind features_file{"SSHOTFEA", 1};
 /// Of a row, without its values.
 inline constexpr std::size_t feature_bytes = 1 + (3 + 1) * sizeof(float) + 4 + (9 + 3) * sizeof(float) + 4;
 
-/// The vectors of a Features<D>, or of a const one: what follows is compiled once for all D.
+/// The vectors of a Features<D>, or of a const one: what follows is compiled once for all D, and, being templates, not
+/// at all where no features are saved.
 template <template <class> class MaybeConst>
 struct FeatureColumns {
   std::string_view layout;
@@ -9668,7 +9700,8 @@ template <class Columns, class SomeFeatures>
 
 /// What load() would take: as many of everything, and no value that is not finite. A key point's position and intensity
 /// may be anything: that is what its status says.
-[[nodiscard]] inline bool can_be_saved(const ColumnsToSave& from) noexcept {
+template <class Columns>
+[[nodiscard]] bool can_be_saved(const Columns& from) noexcept {
   const std::size_t count = from.status.size();
   bool can = from.values.size() == count * from.row_size && from.keypoints.size() == count &&
              from.frames.size() == count && from.confidence.size() == count && from.neighbors.size() == count;
@@ -9683,7 +9716,8 @@ template <class Columns, class SomeFeatures>
   return can;
 }
 
-inline void write(ByteWriter& to, const ColumnsToSave& from) {
+template <class Columns>
+void write_columns(ByteWriter& to, const Columns& from) {
   to.name(from.layout);
   to.count(from.row_size);
   to.count(from.status.size());
@@ -9722,7 +9756,8 @@ inline void write(ByteWriter& to, const ColumnsToSave& from) {
 }
 
 /// ok, other_descriptor or damaged_model; what is not ok may leave anything.
-[[nodiscard]] inline Status read(ByteReader& from, const ColumnsToLoad& to) {
+template <class Columns>
+[[nodiscard]] Status read_columns(ByteReader& from, const Columns& to) {
   const std::string layout = from.name();
   const auto row_size = from.number<std::uint64_t>();
   if (!from.good()) return Status::damaged_model;
@@ -9754,20 +9789,21 @@ inline void write(ByteWriter& to, const ColumnsToSave& from) {
   return from.good() ? Status::ok : Status::damaged_model;
 }
 
-/// Compiled once, as load_columns() is.
-[[nodiscard]] inline Status save_columns(const ColumnsToSave& from, std::vector<std::uint8_t>& bytes) {
+template <class Columns>
+[[nodiscard]] Status save_columns(const Columns& from, std::vector<std::uint8_t>& bytes) {
   bytes.clear();
   if (!can_be_saved(from)) return Status::bad_rows;
   const std::size_t row_bytes = from.row_size * sizeof(float) + feature_bytes;
   ByteWriter to(bytes, features_file, 4096 + from.status.size() * row_bytes);
-  write(to, from);
+  write_columns(to, from);
   to.finish();
   return Status::ok;
 }
-[[nodiscard]] inline Status load_columns(const std::uint8_t* bytes, std::size_t size, const ColumnsToLoad& to) {
+template <class Columns>
+[[nodiscard]] Status load_columns(const std::uint8_t* bytes, std::size_t size, const Columns& to) {
   ByteReader body(nullptr, 0);
   const Status status = open_checked(bytes, size, features_file, body);
-  return status == Status::ok ? read(body, to) : status;
+  return status == Status::ok ? read_columns(body, to) : status;
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -9804,7 +9840,7 @@ template <class D>
 }
 
 /// The same in a file. Also no_file: it cannot be opened, or not all of it written or read. If that happens to save()
-/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-0" (or -1,
+/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-00" (or 01,
 /// ...), and takes its name when it is complete. So there must be room for both, and its folder must be writable.
 template <class D>
 [[nodiscard]] Status save(const Features<D>& features, const std::string& path) {

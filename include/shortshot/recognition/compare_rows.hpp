@@ -35,6 +35,13 @@ inline constexpr std::size_t query_block = 128;
 inline constexpr std::size_t row_block = 96;
 static_assert(query_block % panel_rows == 0 && row_block % tile_rows == 0, "whole tiles");
 
+/// A match before what was compared became a distance.
+template <class Number>
+struct Candidate {
+  std::uint32_t row;
+  Number compared;
+};
+
 /// More than twice any squared distance; finite, so that nothing here depends on how infinities compare.
 inline constexpr float out_of_reach = std::numeric_limits<float>::max();
 
@@ -153,18 +160,35 @@ class QueryLimits {
   std::vector<float> halves_;
 };
 
-/// Calls consider(thread, query, row) for all pairs that take part and are nearer than what `limits` has for the query,
-/// or row_limit(thread, row) for the row, and for others; in the order of for_products().
-template <class Executor, class RowLimit, class Consider>
-void for_near(Executor& executor, std::size_t team, const ComparedRows& queries, const ComparedRows& database,
-              const QueryLimits& limits, const RowLimit& row_limit, const Consider& consider) {
-  const auto compare = [&](std::size_t thread, std::size_t first, std::size_t row, const PanelProducts& products) {
-    const simd::F32 half_of_row = simd::all(0.5f * row_limit(thread, row));
+/// Of the products that for_products() calls it with, those of pairs that may be near: nearer than `limits` has for the
+/// query, or what `best_of_rows` (null: nothing) has for the row. One type for all that is done with them, because they
+/// are few, and what is around them takes a compiler its time.
+struct NearPairs {
+  const ComparedRows& queries;
+  const ComparedRows& database;
+  const QueryLimits& limits;
+  const Candidate<float>* best_of_rows;  // as many for each thread as there are rows
+  void (*consider)(const void* considering, std::size_t thread, std::size_t query, std::size_t row);
+  const void* considering;
+
+  void operator()(std::size_t thread, std::size_t first, std::size_t row, const PanelProducts& products) const {
+    const float of_row = best_of_rows != nullptr ? best_of_rows[thread * database.count() + row].compared : 0.0f;
+    const simd::F32 half_of_row = simd::all(0.5f * of_row);
     const auto halves = [&](std::size_t query) { return simd::max(limits.halves(query), half_of_row); };
     for_candidates(queries, first, *database.half_norm(row), products, halves,
-                   [&](std::size_t query) { consider(thread, query, row); });
+                   [&](std::size_t query) { consider(considering, thread, query, row); });
+  }
+};
+
+/// Calls consider(thread, query, row) for all pairs that take part and are nearer than the best so far, of the query or
+/// (if there is one) of the row, and for others; in the order of for_products().
+template <class Executor, class Consider>
+void for_near(Executor& executor, std::size_t team, const ComparedRows& queries, const ComparedRows& database,
+              const QueryLimits& limits, const Candidate<float>* best_of_rows, const Consider& consider) {
+  const auto call = [](const void* considering, std::size_t thread, std::size_t query, std::size_t row) {
+    (*static_cast<const Consider*>(considering))(thread, query, row);
   };
-  for_products(executor, team, queries, database, compare);
+  for_products(executor, team, queries, database, NearPairs{queries, database, limits, best_of_rows, call, &consider});
 }
 
 /// Rows in any format, with the same functions.
@@ -192,9 +216,9 @@ struct NoLimits {
   void set(std::size_t, Number) noexcept {}
 };
 
-template <class Executor, class Rows, class RowLimit, class Consider>
+template <class Executor, class Rows, class Consider>
 void for_near(Executor& executor, std::size_t team, const AnyRows<Rows>& queries, const AnyRows<Rows>& database,
-              const NoLimits&, const RowLimit&, const Consider& consider) {
+              const NoLimits&, const Candidate<typename AnyRows<Rows>::Number>*, const Consider& consider) {
   const auto compare_block = [&](std::size_t thread, std::size_t begin, std::size_t end) {
     for (std::size_t first = 0; first < database.count(); first += row_block) {
       const std::size_t last = std::min(first + row_block, database.count());

@@ -43,13 +43,6 @@ struct MatchedPair {
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// A match before its number became a distance.
-template <class Number>
-struct Candidate {
-  std::uint32_t row;
-  Number compared;
-};
-
 template <class Rows, class Number>
 [[nodiscard]] float distance_of(const Rows& rows, const Candidate<Number>& candidate) {
   if (candidate.row == no_row) return std::numeric_limits<float>::infinity();
@@ -102,8 +95,7 @@ template <class Rows, class Executor>
   const Compared to(database);
   typename Comparison<Rows>::Limits limits(from);
   std::vector<Candidate<Number>> best(queries.count * k, {no_row, Compared::farthest});
-  const auto no_limit = [](std::size_t, std::size_t) { return Number{}; };
-  for_near(executor, team_of(executor), from, to, limits, no_limit, [&](std::size_t, std::size_t q, std::size_t row) {
+  for_near(executor, team_of(executor), from, to, limits, nullptr, [&](std::size_t, std::size_t q, std::size_t row) {
     Candidate<Number>* const of_query = best.data() + q * k;
     const Number compared = from.compare(q, to, row);
     if (!(compared < of_query[k - 1].compared)) return;
@@ -174,9 +166,6 @@ template <class Rows = DescriptorRows, class Threads = unsigned>
   typename detail::Comparison<Rows>::Limits limits(from);
   std::vector<detail::Candidate<Number>> of_source(source.count, none);
   std::vector<detail::Candidate<Number>> of_target(team * target.count, none);  // what each thread has seen
-  const auto limit_of = [&](std::size_t thread, std::size_t t) {
-    return of_target[thread * target.count + t].compared;
-  };
   const auto consider = [&](std::size_t thread, std::size_t s, std::size_t t) {
     const Number compared = from.compare(s, to, t);
     detail::Candidate<Number>& nearest_source = of_target[thread * target.count + t];
@@ -185,7 +174,7 @@ template <class Rows = DescriptorRows, class Threads = unsigned>
     of_source[s] = {static_cast<std::uint32_t>(t), compared};
     limits.set(s, compared);
   };
-  detail::for_near(executor, team, from, to, limits, limit_of, consider);
+  detail::for_near(executor, team, from, to, limits, of_target.data(), consider);
   detail::merge(of_target, target.count);
   for (std::size_t s = 0; s < source.count; ++s) {
     const detail::Candidate<Number>& candidate = of_source[s];

@@ -120,7 +120,7 @@ inline namespace SHORTSHOT_CODE {
 }
 
 /// The same in a file. Also no_file: it cannot be opened, or not all of it written or read. If that happens to save()
-/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-0" (or -1,
+/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-00" (or 01,
 /// ...), and takes its name when it is complete. So there must be room for both, and its folder must be writable.
 [[nodiscard]] inline Status save(const Recognizer& recognizer, const std::string& path) {
   std::vector<std::uint8_t> bytes;

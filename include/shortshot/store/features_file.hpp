@@ -39,7 +39,8 @@ inline constexpr FileKind features_file{"SSHOTFEA", 1};
 /// Of a row, without its values.
 inline constexpr std::size_t feature_bytes = 1 + (3 + 1) * sizeof(float) + 4 + (9 + 3) * sizeof(float) + 4;
 
-/// The vectors of a Features<D>, or of a const one: what follows is compiled once for all D.
+/// The vectors of a Features<D>, or of a const one: what follows is compiled once for all D, and, being templates, not
+/// at all where no features are saved.
 template <template <class> class MaybeConst>
 struct FeatureColumns {
   std::string_view layout;
@@ -70,7 +71,8 @@ template <class Columns, class SomeFeatures>
 
 /// What load() would take: as many of everything, and no value that is not finite. A key point's position and intensity
 /// may be anything: that is what its status says.
-[[nodiscard]] inline bool can_be_saved(const ColumnsToSave& from) noexcept {
+template <class Columns>
+[[nodiscard]] bool can_be_saved(const Columns& from) noexcept {
   const std::size_t count = from.status.size();
   bool can = from.values.size() == count * from.row_size && from.keypoints.size() == count &&
              from.frames.size() == count && from.confidence.size() == count && from.neighbors.size() == count;
@@ -85,7 +87,8 @@ template <class Columns, class SomeFeatures>
   return can;
 }
 
-inline void write(ByteWriter& to, const ColumnsToSave& from) {
+template <class Columns>
+void write_columns(ByteWriter& to, const Columns& from) {
   to.name(from.layout);
   to.count(from.row_size);
   to.count(from.status.size());
@@ -124,7 +127,8 @@ inline void write(ByteWriter& to, const ColumnsToSave& from) {
 }
 
 /// ok, other_descriptor or damaged_model; what is not ok may leave anything.
-[[nodiscard]] inline Status read(ByteReader& from, const ColumnsToLoad& to) {
+template <class Columns>
+[[nodiscard]] Status read_columns(ByteReader& from, const Columns& to) {
   const std::string layout = from.name();
   const auto row_size = from.number<std::uint64_t>();
   if (!from.good()) return Status::damaged_model;
@@ -156,20 +160,21 @@ inline void write(ByteWriter& to, const ColumnsToSave& from) {
   return from.good() ? Status::ok : Status::damaged_model;
 }
 
-/// Compiled once, as load_columns() is.
-[[nodiscard]] inline Status save_columns(const ColumnsToSave& from, std::vector<std::uint8_t>& bytes) {
+template <class Columns>
+[[nodiscard]] Status save_columns(const Columns& from, std::vector<std::uint8_t>& bytes) {
   bytes.clear();
   if (!can_be_saved(from)) return Status::bad_rows;
   const std::size_t row_bytes = from.row_size * sizeof(float) + feature_bytes;
   ByteWriter to(bytes, features_file, 4096 + from.status.size() * row_bytes);
-  write(to, from);
+  write_columns(to, from);
   to.finish();
   return Status::ok;
 }
-[[nodiscard]] inline Status load_columns(const std::uint8_t* bytes, std::size_t size, const ColumnsToLoad& to) {
+template <class Columns>
+[[nodiscard]] Status load_columns(const std::uint8_t* bytes, std::size_t size, const Columns& to) {
   ByteReader body(nullptr, 0);
   const Status status = open_checked(bytes, size, features_file, body);
-  return status == Status::ok ? read(body, to) : status;
+  return status == Status::ok ? read_columns(body, to) : status;
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -206,7 +211,7 @@ template <class D>
 }
 
 /// The same in a file. Also no_file: it cannot be opened, or not all of it written or read. If that happens to save()
-/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-0" (or -1,
+/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-00" (or 01,
 /// ...), and takes its name when it is complete. So there must be room for both, and its folder must be writable.
 template <class D>
 [[nodiscard]] Status save(const Features<D>& features, const std::string& path) {

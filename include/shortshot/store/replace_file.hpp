@@ -27,8 +27,11 @@ inline namespace SHORTSHOT_CODE {
 /// Makes a file that was not there before, of a name that nobody else has: "x" fails for one that is. Null, and no
 /// name, if there can be none. What programs that ended in between have left is never touched.
 [[nodiscard]] inline std::FILE* create_beside(const std::string& path, std::string& name) {
-  for (unsigned attempt = 0; attempt < 1000; ++attempt) {
-    name = path + ".tmp-" + std::to_string(attempt);
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    name = path;
+    name += ".tmp-";
+    name += static_cast<char>('0' + attempt / 10);
+    name += static_cast<char>('0' + attempt % 10);
     std::FILE* const file = std::fopen(name.c_str(), "wbx");
     if (file != nullptr) return file;
     if (errno != EEXIST) break;

@@ -92,11 +92,11 @@ TEST_CASE("file: a disk that is full leaves the old file as it was") {
 TEST_CASE("file: what an interrupted program has left is not touched") {
   const TemporaryFolder folder;
   const Bytes left = some_bytes(5, 10);
-  REQUIRE(replace(folder / "a.tmp-0", left) == Status::ok);
-  REQUIRE(replace(folder / "a.tmp-1", left) == Status::ok);
+  REQUIRE(replace(folder / "a.tmp-00", left) == Status::ok);
+  REQUIRE(replace(folder / "a.tmp-01", left) == Status::ok);
   CHECK(replace(folder / "a", some_bytes(6, 20)) == Status::ok);
-  CHECK(bytes_of_file(folder / "a.tmp-0") == left);
-  CHECK(bytes_of_file(folder / "a.tmp-1") == left);
+  CHECK(bytes_of_file(folder / "a.tmp-00") == left);
+  CHECK(bytes_of_file(folder / "a.tmp-01") == left);
   CHECK(folder.files() == 3);
 }
 
@@ -109,9 +109,9 @@ TEST_CASE("file: places where there can be none") {
   CHECK(replace(folder.path.string() + "/", bytes) == Status::no_file);
   CHECK(replace("/dev/full", bytes) == Status::no_file);  // and not a device, whoever may
   CHECK(fs::is_character_file("/dev/full"));
-  CHECK_FALSE(fs::exists("/dev/full.tmp-0"));
+  CHECK_FALSE(fs::exists("/dev/full.tmp-00"));
   CHECK(fs::is_empty(folder.path));
-  CHECK_FALSE(fs::exists(folder.path.string() + ".tmp-0"));
+  CHECK_FALSE(fs::exists(folder.path.string() + ".tmp-00"));
 
   REQUIRE(replace(folder / "a", bytes) == Status::ok);
   fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
