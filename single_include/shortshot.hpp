@@ -10,7 +10,8 @@
 // memory of its own, matching, poses, the recognizer, files.
 //
 // Two things need another library, included before this header: <nanoflann.hpp> for NanoflannSearch, <Eigen/Core> for
-// view_eigen(). Whoever comes too late includes this header once more: what is new is added.
+// view_eigen(). Whoever comes too late includes this header once more: what is new is added. Without them, the compiler
+// says what is missing where one of the two is used.
 //
 // Macros of other headers (min, near, Status, ...) do no harm here, whether they come before it or after it. In your own
 // code they do what they always do.
@@ -81,26 +82,19 @@
 #pragma push_macro("I")
 #undef I
 
-// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initializer, no
-// libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
-// <type_traits> and <utility> of the standard library.
-#ifndef SHORTSHOT_KERNEL_HPP
-#define SHORTSHOT_KERNEL_HPP
-
-// shortshot/frame/normal.hpp: the surface normal of a gathered neighborhood.
-#ifndef SHORTSHOT_FRAME_NORMAL_HPP
-#define SHORTSHOT_FRAME_NORMAL_HPP
+// shortshot/cloud/view_of.hpp: views of containers of structs, PCL's clouds among them, by their members' names.
+//
+// No other library is included: whatever has the members is understood. A point needs float x, y, z (in that or any
+// order, with any padding), for color one-byte r, g, b (in any order: PCL keeps b, g, r, a), and for a normal float
+// normal_x, normal_y, normal_z, which may also stand in structs of their own; for an intensity a float, a std::uint8_t
+// or a std::uint16_t of that name (pcl::PointXYZI).
+#ifndef SHORTSHOT_CLOUD_VIEW_OF_HPP
+#define SHORTSHOT_CLOUD_VIEW_OF_HPP
 
 #include <cstddef>
-#include <cstdint>
-
-// shortshot/base/fixed_point.hpp: sums that do not depend on their order.
-//
-// Float additions round, so a sum depends on the order of its terms: on the search that found the neighbors, on the
-// number of lanes, on the number of threads. Every sum over neighbors in this library adds numbers that were first
-// scaled by a power of two and rounded to integers: exact additions, the same bits whatever the order.
-#ifndef SHORTSHOT_BASE_FIXED_POINT_HPP
-#define SHORTSHOT_BASE_FIXED_POINT_HPP
+#include <iterator>
+#include <type_traits>
+#include <utility>
 
 // shortshot/config.hpp: the macros the library sets. There is none for you to set: options are template parameters.
 //
@@ -208,6 +202,552 @@ using namespace extend;
 }
 }  // namespace shortshot
 #endif  // SHORTSHOT_CONFIG_HPP
+
+// shortshot/cloud/cloud.hpp: the only door for point clouds. A CloudView borrows the user's own memory, whatever its
+// layout.
+#ifndef SHORTSHOT_CLOUD_CLOUD_HPP
+#define SHORTSHOT_CLOUD_CLOUD_HPP
+
+#include <cstdint>
+#include <cstring>
+
+// shortshot/status.hpp: the one way in which the library reports that something is wrong.
+#ifndef SHORTSHOT_STATUS_HPP
+#define SHORTSHOT_STATUS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// Result of every call that can fail. Whatever is not `ok` comes with a zeroed output, never with NaN.
+// (version 14 of it does not know attributes of enumerations)
+// clang-format off
+enum class [[nodiscard]] Status : std::uint8_t {
+  ok,
+  empty_cloud,         ///< the cloud has no point, or no point with three finite coordinates
+  bad_view,            ///< the view's memory cannot be what it says (null pointer, field outside the point, too short)
+  bad_radius,          ///< a radius is not a finite number above zero, or its square leaves the range of float
+  bad_keypoint,        ///< a key point's index lies outside the cloud
+  invalid_keypoint,    ///< a key point's position is not finite
+  missing_colors,      ///< the descriptor needs colors and the cloud has none
+  missing_normals,     ///< the descriptor needs normals and the cloud has none
+  too_few_neighbors,   ///< no neighbor to describe, or fewer than five for a local reference frame or for SHOT
+  too_many_neighbors,  ///< the neighborhood does not fit the workspace; Neighborhood::found says what it takes
+  ambiguous_frame,     ///< collinear or symmetric neighborhood: two principal axes cannot be told apart
+  bad_frame,           ///< a given frame is not orthonormal, or not finite
+  bad_viewpoint,       ///< a viewpoint is not finite
+  bad_leaf,            ///< a voxel size is not a finite number above zero
+  out_of_memory,       ///< caller-provided memory is too small for the cloud
+  not_organized,       ///< the cloud is no image of a pinhole camera, so it has no image window to search
+  bad_rows,            ///< rows of descriptors that do not fit each other, or null pointers
+  bad_option,          ///< an option is outside of the range that its docstring gives
+  too_few_pairs,       ///< fewer than three correspondences
+  no_pose,             ///< no rigid motion that at least three correspondences agree on
+  not_trained,         ///< the recognizer has no training view with a descriptor
+  not_a_model,         ///< the bytes are no recognizer's, or no features', whichever was asked for
+  other_version,       ///< the file was written by a version with another format
+  other_descriptor,    ///< descriptors of another layout than the recognizer or the file has
+  damaged_model,       ///< the file is truncated, or its checksum or contents are wrong
+  no_file,             ///< a file cannot be read or written
+  missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
+  unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
+};
+// clang-format on
+
+inline constexpr int status_count = static_cast<int>(Status::unsure_frame) + 1;
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// One English sentence for a status. Static storage; never null.
+[[nodiscard]] constexpr const char* message(Status status) noexcept {
+  switch (status) {
+    case Status::ok: return "ok";
+    case Status::empty_cloud: return "the cloud has no valid point";
+    case Status::bad_view: return "the cloud view does not fit its memory";
+    case Status::bad_radius: return "a radius must be finite and above zero";
+    case Status::bad_keypoint: return "the key point's index lies outside the cloud";
+    case Status::invalid_keypoint: return "the key point is not finite";
+    case Status::missing_colors: return "the descriptor needs colors and the cloud has none";
+    case Status::missing_normals: return "the descriptor needs normals and the cloud has none";
+    case Status::too_few_neighbors: return "too few neighbors within the radius";
+    case Status::too_many_neighbors: return "more neighbors than the workspace can hold";
+    case Status::ambiguous_frame: return "the neighborhood is too symmetric for a local reference frame";
+    case Status::bad_frame: return "the given frame is not orthonormal";
+    case Status::bad_viewpoint: return "the viewpoint is not finite";
+    case Status::bad_leaf: return "a voxel size must be finite and above zero";
+    case Status::out_of_memory: return "the memory provided is too small";
+    case Status::not_organized: return "the cloud is not an image of a pinhole camera";
+    case Status::bad_rows: return "the rows of descriptors do not fit each other";
+    case Status::bad_option: return "an option is out of its range";
+    case Status::too_few_pairs: return "a pose takes three correspondences or more";
+    case Status::no_pose: return "no rigid motion fits three correspondences or more";
+    case Status::not_trained: return "the recognizer has no training view";
+    case Status::not_a_model: return "not a file of this kind";
+    case Status::other_version: return "the file's format is of another version";
+    case Status::other_descriptor: return "the file or the recognizer is of another descriptor";
+    case Status::damaged_model: return "the file is damaged";
+    case Status::no_file: return "the file cannot be read or written";
+    case Status::missing_intensities: return "the descriptor needs intensities and there are none";
+    case Status::unsure_frame: return "other key points have surer frames";
+  }
+  return "unknown status";
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_STATUS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// Three float coordinates per point: where each one of point 0 lies, and how far it is to the same one of point 1.
+/// Covers x y z x y z ..., arrays of structs with padding, and separate x, y, z arrays. No alignment is assumed.
+struct Float3Channel {
+  const unsigned char* x;
+  const unsigned char* y;
+  const unsigned char* z;
+  std::size_t stride_bytes;
+};
+
+/// Three color bytes per point, sRGB. The three pointers express the order r g b, b g r (PCL, packed floats) or
+/// planes.
+struct ColorChannel {
+  const unsigned char* r;
+  const unsigned char* g;
+  const unsigned char* b;
+  std::size_t stride_bytes;
+};
+
+/// How the numbers of a ScalarChannel are stored.
+enum class ScalarType : std::uint8_t { float32, uint8, uint16 };
+
+/// One number per point, as the intensity of a lidar's or a time-of-flight camera's echo.
+struct ScalarChannel {
+  const unsigned char* value;
+  std::size_t stride_bytes;
+  ScalarType type;
+};
+
+/// What a descriptor may need of a cloud beyond its points; `own`: something that no view has, but the caller.
+enum class Channel : std::uint8_t { colors, normals, intensities, own };
+
+/// A borrowed point cloud: nothing is copied, nothing is owned, the memory must outlive the view.
+/// Positions in meters (any unit works if the radius has the same). Points that are not finite are never neighbors.
+/// A channel whose first pointer is null is absent. `width * height == size`; height is 1 for unorganized clouds.
+/// Trivial type with plain members, the same in every translation unit; reading it is thread-safe.
+struct CloudView {
+  Float3Channel points;
+  ColorChannel colors;
+  Float3Channel normals;
+  ScalarChannel intensities;
+  std::size_t size;
+  std::size_t width;
+  std::size_t height;
+};
+
+struct Point {
+  float x, y, z;
+};
+
+/// A surface normal: a unit vector, or NaN in all three where a point has none.
+struct SurfaceNormal {
+  float x, y, z;
+};
+
+/// An sRGB color.
+struct Rgb {
+  std::uint8_t r, g, b;
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+[[nodiscard]] inline bool has_colors(const CloudView& cloud) noexcept { return cloud.colors.r != nullptr; }
+[[nodiscard]] inline bool has_normals(const CloudView& cloud) noexcept { return cloud.normals.x != nullptr; }
+[[nodiscard]] inline bool has_intensities(const CloudView& cloud) noexcept {
+  return cloud.intensities.value != nullptr;
+}
+
+/// Is this a view that can be read at all? Every entry point asks once.
+[[nodiscard]] inline Status validate(const CloudView& cloud) noexcept {
+  if (cloud.size == 0) return Status::empty_cloud;
+  if (cloud.size > 0xFFFFFFFFu) return Status::bad_view;  // indices have 32 bits
+  if (cloud.points.x == nullptr || cloud.points.y == nullptr || cloud.points.z == nullptr) return Status::bad_view;
+  if (has_colors(cloud) && (cloud.colors.g == nullptr || cloud.colors.b == nullptr)) return Status::bad_view;
+  if (has_normals(cloud) && (cloud.normals.y == nullptr || cloud.normals.z == nullptr)) return Status::bad_view;
+  return Status::ok;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Has the cloud what a source reads?
+[[nodiscard]] inline bool has_channel(const CloudView& cloud, Channel channel) noexcept {
+  switch (channel) {
+    case Channel::colors: return has_colors(cloud);
+    case Channel::normals: return has_normals(cloud);
+    case Channel::intensities: return has_intensities(cloud);
+    case Channel::own: return true;
+  }
+  return true;
+}
+
+/// What to say where it has not.
+[[nodiscard]] constexpr Status missing(Channel channel) noexcept {
+  return channel == Channel::colors    ? Status::missing_colors
+         : channel == Channel::normals ? Status::missing_normals
+                                       : Status::missing_intensities;
+}
+
+/// A channel whose x, y and z follow each other by `step` bytes; absent if there is no memory.
+[[nodiscard]] inline Float3Channel float3_channel(const float* first, std::size_t step, std::size_t stride) noexcept {
+  if (first == nullptr) return {};
+  const auto* x = reinterpret_cast<const unsigned char*>(first);
+  return {x, x + step, x + 2 * step, stride};
+}
+
+[[nodiscard]] inline ColorChannel color_channel(const unsigned char* r, std::size_t step, std::size_t stride) noexcept {
+  if (r == nullptr) return {};
+  return {r, r + step, r + 2 * step, stride};
+}
+
+/// float32, uint8 or uint16: how a ScalarChannel reads a Scalar.
+template <class Scalar>
+inline constexpr bool is_channel_scalar =
+    std::is_same<Scalar, float>::value || std::is_same<Scalar, std::uint8_t>::value ||
+    std::is_same<Scalar, std::uint16_t>::value;
+
+template <class Scalar>
+[[nodiscard]] ScalarChannel scalar_channel(const Scalar* first, std::size_t stride) noexcept {
+  static_assert(is_channel_scalar<Scalar>, "Intensities are supported as float, std::uint8_t and std::uint16_t");
+  if (first == nullptr) return {};
+  return {reinterpret_cast<const unsigned char*>(first), stride,
+          sizeof(Scalar) == 4   ? ScalarType::float32
+          : sizeof(Scalar) == 2 ? ScalarType::uint16
+                                : ScalarType::uint8};
+}
+
+/// A view of nothing, and of more than nothing: bad_view everywhere.
+[[nodiscard]] inline CloudView unusable_view() noexcept {
+  CloudView view{};
+  view.size = 1;
+  return view;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// View of `count` points x y z (floats). `stride_bytes` is the distance between points.
+[[nodiscard]] inline CloudView view_xyz(const float* xyz, std::size_t count,
+                                        std::size_t stride_bytes = 3 * sizeof(float)) noexcept {
+  CloudView view{};
+  view.points = detail::float3_channel(xyz, sizeof(float), stride_bytes);
+  view.size = count;
+  view.width = count;
+  view.height = 1;
+  return view;
+}
+
+/// View of `count` points x y z (floats) and their colors r g b (bytes), each with its own stride.
+[[nodiscard]] inline CloudView view_xyz_rgb(const float* xyz, const std::uint8_t* rgb, std::size_t count,
+                                            std::size_t xyz_stride_bytes = 3 * sizeof(float),
+                                            std::size_t rgb_stride_bytes = 3) noexcept {
+  CloudView view = view_xyz(xyz, count, xyz_stride_bytes);
+  view.colors = detail::color_channel(rgb, 1, rgb_stride_bytes);
+  return view;
+}
+
+/// The same cloud with `cloud.size` normals x y z (floats), borrowed like the points. `stride_bytes` is the distance
+/// between normals.
+[[nodiscard]] inline CloudView with_normals(CloudView cloud, const SurfaceNormal* normals,
+                                            std::size_t stride_bytes = sizeof(SurfaceNormal)) noexcept {
+  cloud.normals = detail::float3_channel(normals == nullptr ? nullptr : &normals->x, sizeof(float), stride_bytes);
+  return cloud;
+}
+
+/// The same cloud with `cloud.size` intensities (float, std::uint8_t or std::uint16_t), borrowed like the points.
+/// `stride_bytes` is the distance between two of them.
+template <class Scalar>
+[[nodiscard]] CloudView with_intensities(CloudView cloud, const Scalar* intensities,
+                                         std::size_t stride_bytes = sizeof(Scalar)) noexcept {
+  cloud.intensities = detail::scalar_channel(intensities, stride_bytes);
+  return cloud;
+}
+
+/// The same cloud as an image of `width * height` pixels, row by row, for OrganizedSearch.
+[[nodiscard]] inline CloudView organized(CloudView cloud, std::size_t width, std::size_t height) noexcept {
+  cloud.width = width;
+  cloud.height = height;
+  return cloud;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_CLOUD_CLOUD_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+template <class P, class = void>
+struct HasRgb : std::false_type {};
+template <class P>
+struct HasRgb<P, std::void_t<decltype(P::r), decltype(P::g), decltype(P::b)>>
+    : std::bool_constant<sizeof(P::r) == 1 && sizeof(P::g) == 1 && sizeof(P::b) == 1> {};
+
+template <class P, class = void>
+struct HasNormal : std::false_type {};
+template <class P>
+struct HasNormal<P, std::void_t<decltype(P::normal_x), decltype(P::normal_y), decltype(P::normal_z)>>
+    : std::bool_constant<std::is_same<std::remove_cv_t<decltype(P::normal_x)>, float>::value &&
+                         std::is_same<std::remove_cv_t<decltype(P::normal_y)>, float>::value &&
+                         std::is_same<std::remove_cv_t<decltype(P::normal_z)>, float>::value> {};
+
+template <class P, class = void>
+struct HasIntensity : std::false_type {};
+template <class P>
+struct HasIntensity<P, std::void_t<decltype(P::intensity)>>
+    : std::bool_constant<is_channel_scalar<std::remove_cv_t<decltype(P::intensity)>>> {};
+
+template <class C, class = void>
+struct HasPoints : std::false_type {};
+template <class C>
+struct HasPoints<C, std::void_t<decltype(std::declval<const C&>().points.data())>> : std::true_type {};
+
+/// view_of()'s second argument is a container, unless it is a count.
+template <class C>
+using IfContainer = std::enable_if_t<!std::is_convertible<C, std::size_t>::value>;
+
+/// The structs in a container, or in the `points` of a pcl::PointCloud-shaped object.
+template <class C>
+[[nodiscard]] const auto& structs_of(const C& container) noexcept {
+  if constexpr (HasPoints<C>::value) {
+    return container.points;
+  } else {
+    return container;
+  }
+}
+
+template <class Member>
+[[nodiscard]] const unsigned char* bytes_of(const Member& member) noexcept {
+  return reinterpret_cast<const unsigned char*>(&member);
+}
+
+template <class P>
+[[nodiscard]] Float3Channel normals_of(const P* structs, std::size_t count) noexcept {
+  if (structs == nullptr || count == 0) return {};
+  return {bytes_of(structs->normal_x), bytes_of(structs->normal_y), bytes_of(structs->normal_z), sizeof(P)};
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// View of `count` structs with members x, y, z and, if they have them, r, g, b; normal_x, normal_y, normal_z; and
+/// intensity.
+template <class P>
+[[nodiscard]] CloudView view_of(const P* points, std::size_t count) noexcept {
+  static_assert(std::is_same<std::remove_cv_t<decltype(P::x)>, float>::value &&
+                    std::is_same<std::remove_cv_t<decltype(P::y)>, float>::value &&
+                    std::is_same<std::remove_cv_t<decltype(P::z)>, float>::value,
+                "view_of() supports points with float members x, y and z");
+  CloudView view{};
+  view.size = count;
+  view.width = count;
+  view.height = 1;
+  if (points == nullptr || count == 0) return view;  // to be refused by validate()
+  view.points = {detail::bytes_of(points->x), detail::bytes_of(points->y), detail::bytes_of(points->z), sizeof(P)};
+  if constexpr (detail::HasRgb<P>::value) {
+    view.colors = {detail::bytes_of(points->r), detail::bytes_of(points->g), detail::bytes_of(points->b), sizeof(P)};
+  }
+  if constexpr (detail::HasNormal<P>::value) view.normals = detail::normals_of(points, count);
+  if constexpr (detail::HasIntensity<P>::value) return with_intensities(view, &points->intensity, sizeof(P));
+  return view;
+}
+
+/// View of an array, a std::vector or anything else with data() and size(); or of a pcl::PointCloud-shaped object:
+/// `points` with data() and size(), and `width` and `height`.
+template <class Container>
+[[nodiscard]] CloudView view_of(const Container& cloud) noexcept {
+  const auto& structs = detail::structs_of(cloud);
+  const CloudView view = view_of(std::data(structs), std::size(structs));
+  if constexpr (detail::HasPoints<Container>::value) {
+    if (static_cast<std::size_t>(cloud.width) * cloud.height == view.size) {
+      return organized(view, cloud.width, cloud.height);
+    }
+  }
+  return view;
+}
+
+/// The same with normals from a second container of structs with members normal_x, normal_y, normal_z, such as a
+/// pcl::PointCloud<pcl::Normal>; normals that the points have themselves are not read. bad_view if the numbers of
+/// structs differ.
+template <class Container, class Normals, class = detail::IfContainer<Normals>>
+[[nodiscard]] CloudView view_of(const Container& cloud, const Normals& normals) noexcept {
+  const auto& structs = detail::structs_of(normals);
+  using Struct = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(structs))>>;
+  static_assert(detail::HasNormal<Struct>::value,
+                "view_of() supports normals with float members normal_x, normal_y and normal_z");
+  CloudView view = view_of(cloud);
+  if (std::size(structs) != view.size) return detail::unusable_view();
+  view.normals = detail::normals_of(std::data(structs), std::size(structs));
+  return view;
+}
+
+/// A container that dies at the end of the statement cannot be viewed.
+template <class Container>
+CloudView view_of(const Container&& cloud) = delete;
+template <class Container, class Normals, class = detail::IfContainer<Normals>>
+CloudView view_of(const Container&& cloud, const Normals& normals) = delete;
+template <class Container, class Normals, class = detail::IfContainer<Normals>>
+CloudView view_of(const Container& cloud, const Normals&& normals) = delete;
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_CLOUD_VIEW_OF_HPP
+
+// shortshot/cloud/view_point_cloud2.hpp: views of sensor_msgs/PointCloud2-shaped messages, without including ROS.
+#ifndef SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
+#define SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// PointField datatypes that can be read in place.
+inline constexpr int field_uint8 = 2;
+inline constexpr int field_uint16 = 4;
+inline constexpr int field_uint32 = 6;
+inline constexpr int field_float32 = 7;
+
+[[nodiscard]] inline bool is_little_endian() noexcept {
+  const std::uint16_t one = 1;
+  unsigned char first = 0;
+  std::memcpy(&first, &one, 1);
+  return first == 1;
+}
+
+template <class Name>
+[[nodiscard]] bool is_named(const Name& name, const char* text) noexcept {
+  return name == text;
+}
+
+/// Offset of a field with this name and a readable type, or -1.
+template <class Message>
+[[nodiscard]] std::int64_t offset_of(const Message& message, const char* name, bool packed_color) noexcept {
+  for (const auto& field : message.fields) {
+    if (!is_named(field.name, name)) continue;
+    const int type = static_cast<int>(field.datatype);
+    const bool readable = type == field_float32 || (packed_color && type == field_uint32);
+    const bool inside = static_cast<std::uint64_t>(field.offset) + 4 <= static_cast<std::uint64_t>(message.point_step);
+    return readable && inside ? static_cast<std::int64_t>(field.offset) : -1;
+  }
+  return -1;
+}
+
+/// The channel of a field `intensity` of FLOAT32, UINT8 or UINT16; absent if there is none.
+template <class Message>
+[[nodiscard]] ScalarChannel intensities_of(const Message& message, const unsigned char* data) noexcept {
+  for (const auto& field : message.fields) {
+    if (!is_named(field.name, "intensity")) continue;
+    const int type = static_cast<int>(field.datatype);
+    const bool readable = type == field_float32 || type == field_uint8 || type == field_uint16;
+    const std::uint64_t size_bytes = type == field_float32 ? 4 : type == field_uint16 ? 2 : 1;
+    const std::uint64_t end = static_cast<std::uint64_t>(field.offset) + size_bytes;
+    if (!readable || end > static_cast<std::uint64_t>(message.point_step)) return {};
+    const ScalarType scalar = type == field_float32  ? ScalarType::float32
+                              : type == field_uint16 ? ScalarType::uint16
+                                                     : ScalarType::uint8;
+    return {data + field.offset, static_cast<std::size_t>(message.point_step), scalar};
+  }
+  return {};
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// View of a message with members data (data(), size()), fields (name, offset, datatype), point_step, row_step, width,
+/// height and is_bigendian. Fields x, y, z must be FLOAT32; color is a field `rgb` or `rgba`, a FLOAT32 or UINT32 with
+/// 0xAARRGGBB packed into it; normals are FLOAT32 fields normal_x, normal_y, normal_z; an intensity is a FLOAT32,
+/// UINT8 or UINT16. The view borrows the message's bytes.
+///
+/// Statuses: empty_cloud (no point); bad_view (and an empty view): no x, y or z of that type, a field outside
+/// point_step, data shorter than width * height points, padded rows, or the other byte order. No allocation.
+template <class Message>
+[[nodiscard]] Status view_point_cloud2(const Message& message, CloudView& view) noexcept {
+  view = CloudView{};
+  const std::int64_t x = detail::offset_of(message, "x", false);
+  const std::int64_t y = detail::offset_of(message, "y", false);
+  const std::int64_t z = detail::offset_of(message, "z", false);
+  if (x < 0 || y < 0 || z < 0) return Status::bad_view;
+  if (static_cast<bool>(message.is_bigendian) == detail::is_little_endian()) return Status::bad_view;
+
+  const auto step = static_cast<std::size_t>(message.point_step);
+  const auto width = static_cast<std::size_t>(message.width);
+  const auto height = static_cast<std::size_t>(message.height);
+  if (height > 1 && static_cast<std::uint64_t>(message.row_step) != static_cast<std::uint64_t>(width) * step) {
+    return Status::bad_view;
+  }
+  if (width == 0 || height == 0) return Status::empty_cloud;
+  if (message.data.size() / step / width < height) return Status::bad_view;
+
+  const auto* data = reinterpret_cast<const unsigned char*>(message.data.data());
+  view.points = {data + x, data + y, data + z, step};
+  view.size = width * height;
+  view.width = width;
+  view.height = height;
+
+  std::int64_t color = detail::offset_of(message, "rgb", true);
+  if (color < 0) color = detail::offset_of(message, "rgba", true);
+  if (color >= 0) {
+    const unsigned char* packed = data + color;
+    const bool little = detail::is_little_endian();
+    view.colors = {packed + (little ? 2 : 1), packed + (little ? 1 : 2), packed + (little ? 0 : 3), step};
+  }
+  view.intensities = detail::intensities_of(message, data);
+  const std::int64_t normal_x = detail::offset_of(message, "normal_x", false);
+  const std::int64_t normal_y = detail::offset_of(message, "normal_y", false);
+  const std::int64_t normal_z = detail::offset_of(message, "normal_z", false);
+  if (normal_x >= 0 && normal_y >= 0 && normal_z >= 0) {
+    view.normals = {data + normal_x, data + normal_y, data + normal_z, step};
+  }
+  return Status::ok;
+}
+
+/// A message that dies at the end of the statement cannot be viewed.
+template <class Message>
+Status view_point_cloud2(const Message&& message, CloudView& view) = delete;
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
+
+// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initializer, no
+// libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
+// <type_traits> and <utility> of the standard library.
+#ifndef SHORTSHOT_KERNEL_HPP
+#define SHORTSHOT_KERNEL_HPP
+
+// shortshot/frame/normal.hpp: the surface normal of a gathered neighborhood.
+#ifndef SHORTSHOT_FRAME_NORMAL_HPP
+#define SHORTSHOT_FRAME_NORMAL_HPP
+
+// shortshot/base/fixed_point.hpp: sums that do not depend on their order.
+//
+// Float additions round, so a sum depends on the order of its terms: on the search that found the neighbors, on the
+// number of lanes, on the number of threads. Every sum over neighbors in this library adds numbers that were first
+// scaled by a power of two and rounded to integers: exact additions, the same bits whatever the order.
+#ifndef SHORTSHOT_BASE_FIXED_POINT_HPP
+#define SHORTSHOT_BASE_FIXED_POINT_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -823,8 +1363,6 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
 #ifndef SHORTSHOT_BASE_SIMD_SCALAR_HPP
 #define SHORTSHOT_BASE_SIMD_SCALAR_HPP
 
-#include <cstring>
-
 namespace shortshot::extend::simd {
 inline namespace SHORTSHOT_CODE {
 
@@ -1027,9 +1565,6 @@ template <class Function>
 #ifndef SHORTSHOT_BASE_UNROLL_HPP
 #define SHORTSHOT_BASE_UNROLL_HPP
 
-#include <type_traits>
-#include <utility>
-
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
@@ -1208,293 +1743,6 @@ template <int N = 3>
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_BASE_SYMMETRIC_EIGEN_HPP
-
-// shortshot/cloud/cloud.hpp: the only door for point clouds. A CloudView borrows the user's own memory, whatever its
-// layout.
-#ifndef SHORTSHOT_CLOUD_CLOUD_HPP
-#define SHORTSHOT_CLOUD_CLOUD_HPP
-
-#include <cstring>
-
-// shortshot/status.hpp: the one way in which the library reports that something is wrong.
-#ifndef SHORTSHOT_STATUS_HPP
-#define SHORTSHOT_STATUS_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// Result of every call that can fail. Whatever is not `ok` comes with a zeroed output, never with NaN.
-// (version 14 of it does not know attributes of enumerations)
-// clang-format off
-enum class [[nodiscard]] Status : std::uint8_t {
-  ok,
-  empty_cloud,         ///< the cloud has no point, or no point with three finite coordinates
-  bad_view,            ///< the view's memory cannot be what it says (null pointer, field outside the point, too short)
-  bad_radius,          ///< a radius is not a finite number above zero, or its square leaves the range of float
-  bad_keypoint,        ///< a key point's index lies outside the cloud
-  invalid_keypoint,    ///< a key point's position is not finite
-  missing_colors,      ///< the descriptor needs colors and the cloud has none
-  missing_normals,     ///< the descriptor needs normals and the cloud has none
-  too_few_neighbors,   ///< no neighbor to describe, or fewer than five for a local reference frame or for SHOT
-  too_many_neighbors,  ///< the neighborhood does not fit the workspace; Neighborhood::found says what it takes
-  ambiguous_frame,     ///< collinear or symmetric neighborhood: two principal axes cannot be told apart
-  bad_frame,           ///< a given frame is not orthonormal, or not finite
-  bad_viewpoint,       ///< a viewpoint is not finite
-  bad_leaf,            ///< a voxel size is not a finite number above zero
-  out_of_memory,       ///< caller-provided memory is too small for the cloud
-  not_organized,       ///< the cloud is no image of a pinhole camera, so it has no image window to search
-  bad_rows,            ///< rows of descriptors that do not fit each other, or null pointers
-  bad_option,          ///< an option is outside of the range that its docstring gives
-  too_few_pairs,       ///< fewer than three correspondences
-  no_pose,             ///< no rigid motion that at least three correspondences agree on
-  not_trained,         ///< the recognizer has no training view with a descriptor
-  not_a_model,         ///< the bytes are no recognizer's, or no features', whichever was asked for
-  other_version,       ///< the file was written by a version with another format
-  other_descriptor,    ///< descriptors of another layout than the recognizer or the file has
-  damaged_model,       ///< the file is truncated, or its checksum or contents are wrong
-  no_file,             ///< a file cannot be read or written
-  missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
-  unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
-};
-// clang-format on
-
-inline constexpr int status_count = static_cast<int>(Status::unsure_frame) + 1;
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
-/// One English sentence for a status. Static storage; never null.
-[[nodiscard]] constexpr const char* message(Status status) noexcept {
-  switch (status) {
-    case Status::ok: return "ok";
-    case Status::empty_cloud: return "the cloud has no valid point";
-    case Status::bad_view: return "the cloud view does not fit its memory";
-    case Status::bad_radius: return "a radius must be finite and above zero";
-    case Status::bad_keypoint: return "the key point's index lies outside the cloud";
-    case Status::invalid_keypoint: return "the key point is not finite";
-    case Status::missing_colors: return "the descriptor needs colors and the cloud has none";
-    case Status::missing_normals: return "the descriptor needs normals and the cloud has none";
-    case Status::too_few_neighbors: return "too few neighbors within the radius";
-    case Status::too_many_neighbors: return "more neighbors than the workspace can hold";
-    case Status::ambiguous_frame: return "the neighborhood is too symmetric for a local reference frame";
-    case Status::bad_frame: return "the given frame is not orthonormal";
-    case Status::bad_viewpoint: return "the viewpoint is not finite";
-    case Status::bad_leaf: return "a voxel size must be finite and above zero";
-    case Status::out_of_memory: return "the memory provided is too small";
-    case Status::not_organized: return "the cloud is not an image of a pinhole camera";
-    case Status::bad_rows: return "the rows of descriptors do not fit each other";
-    case Status::bad_option: return "an option is out of its range";
-    case Status::too_few_pairs: return "a pose takes three correspondences or more";
-    case Status::no_pose: return "no rigid motion fits three correspondences or more";
-    case Status::not_trained: return "the recognizer has no training view";
-    case Status::not_a_model: return "not a file of this kind";
-    case Status::other_version: return "the file's format is of another version";
-    case Status::other_descriptor: return "the file or the recognizer is of another descriptor";
-    case Status::damaged_model: return "the file is damaged";
-    case Status::no_file: return "the file cannot be read or written";
-    case Status::missing_intensities: return "the descriptor needs intensities and there are none";
-    case Status::unsure_frame: return "other key points have surer frames";
-  }
-  return "unknown status";
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_STATUS_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// Three float coordinates per point: where each one of point 0 lies, and how far it is to the same one of point 1.
-/// Covers x y z x y z ..., arrays of structs with padding, and separate x, y, z arrays. No alignment is assumed.
-struct Float3Channel {
-  const unsigned char* x;
-  const unsigned char* y;
-  const unsigned char* z;
-  std::size_t stride_bytes;
-};
-
-/// Three color bytes per point, sRGB. The three pointers express the order r g b, b g r (PCL, packed floats) or
-/// planes.
-struct ColorChannel {
-  const unsigned char* r;
-  const unsigned char* g;
-  const unsigned char* b;
-  std::size_t stride_bytes;
-};
-
-/// How the numbers of a ScalarChannel are stored.
-enum class ScalarType : std::uint8_t { float32, uint8, uint16 };
-
-/// One number per point, as the intensity of a lidar's or a time-of-flight camera's echo.
-struct ScalarChannel {
-  const unsigned char* value;
-  std::size_t stride_bytes;
-  ScalarType type;
-};
-
-/// What a descriptor may need of a cloud beyond its points; `own`: something that no view has, but the caller.
-enum class Channel : std::uint8_t { colors, normals, intensities, own };
-
-/// A borrowed point cloud: nothing is copied, nothing is owned, the memory must outlive the view.
-/// Positions in meters (any unit works if the radius has the same). Points that are not finite are never neighbors.
-/// A channel whose first pointer is null is absent. `width * height == size`; height is 1 for unorganized clouds.
-/// Trivial type with plain members, the same in every translation unit; reading it is thread-safe.
-struct CloudView {
-  Float3Channel points;
-  ColorChannel colors;
-  Float3Channel normals;
-  ScalarChannel intensities;
-  std::size_t size;
-  std::size_t width;
-  std::size_t height;
-};
-
-struct Point {
-  float x, y, z;
-};
-
-/// A surface normal: a unit vector, or NaN in all three where a point has none.
-struct SurfaceNormal {
-  float x, y, z;
-};
-
-/// An sRGB color.
-struct Rgb {
-  std::uint8_t r, g, b;
-};
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
-[[nodiscard]] inline bool has_colors(const CloudView& cloud) noexcept { return cloud.colors.r != nullptr; }
-[[nodiscard]] inline bool has_normals(const CloudView& cloud) noexcept { return cloud.normals.x != nullptr; }
-[[nodiscard]] inline bool has_intensities(const CloudView& cloud) noexcept {
-  return cloud.intensities.value != nullptr;
-}
-
-/// Is this a view that can be read at all? Every entry point asks once.
-[[nodiscard]] inline Status validate(const CloudView& cloud) noexcept {
-  if (cloud.size == 0) return Status::empty_cloud;
-  if (cloud.size > 0xFFFFFFFFu) return Status::bad_view;  // indices have 32 bits
-  if (cloud.points.x == nullptr || cloud.points.y == nullptr || cloud.points.z == nullptr) return Status::bad_view;
-  if (has_colors(cloud) && (cloud.colors.g == nullptr || cloud.colors.b == nullptr)) return Status::bad_view;
-  if (has_normals(cloud) && (cloud.normals.y == nullptr || cloud.normals.z == nullptr)) return Status::bad_view;
-  return Status::ok;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// Has the cloud what a source reads?
-[[nodiscard]] inline bool has_channel(const CloudView& cloud, Channel channel) noexcept {
-  switch (channel) {
-    case Channel::colors: return has_colors(cloud);
-    case Channel::normals: return has_normals(cloud);
-    case Channel::intensities: return has_intensities(cloud);
-    case Channel::own: return true;
-  }
-  return true;
-}
-
-/// What to say where it has not.
-[[nodiscard]] constexpr Status missing(Channel channel) noexcept {
-  return channel == Channel::colors    ? Status::missing_colors
-         : channel == Channel::normals ? Status::missing_normals
-                                       : Status::missing_intensities;
-}
-
-/// A channel whose x, y and z follow each other by `step` bytes; absent if there is no memory.
-[[nodiscard]] inline Float3Channel float3_channel(const float* first, std::size_t step, std::size_t stride) noexcept {
-  if (first == nullptr) return {};
-  const auto* x = reinterpret_cast<const unsigned char*>(first);
-  return {x, x + step, x + 2 * step, stride};
-}
-
-[[nodiscard]] inline ColorChannel color_channel(const unsigned char* r, std::size_t step, std::size_t stride) noexcept {
-  if (r == nullptr) return {};
-  return {r, r + step, r + 2 * step, stride};
-}
-
-/// float32, uint8 or uint16: how a ScalarChannel reads a Scalar.
-template <class Scalar>
-inline constexpr bool is_channel_scalar =
-    std::is_same<Scalar, float>::value || std::is_same<Scalar, std::uint8_t>::value ||
-    std::is_same<Scalar, std::uint16_t>::value;
-
-template <class Scalar>
-[[nodiscard]] ScalarChannel scalar_channel(const Scalar* first, std::size_t stride) noexcept {
-  static_assert(is_channel_scalar<Scalar>, "Intensities are supported as float, std::uint8_t and std::uint16_t");
-  if (first == nullptr) return {};
-  return {reinterpret_cast<const unsigned char*>(first), stride,
-          sizeof(Scalar) == 4   ? ScalarType::float32
-          : sizeof(Scalar) == 2 ? ScalarType::uint16
-                                : ScalarType::uint8};
-}
-
-/// A view of nothing, and of more than nothing: bad_view everywhere.
-[[nodiscard]] inline CloudView unusable_view() noexcept {
-  CloudView view{};
-  view.size = 1;
-  return view;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// View of `count` points x y z (floats). `stride_bytes` is the distance between points.
-[[nodiscard]] inline CloudView view_xyz(const float* xyz, std::size_t count,
-                                        std::size_t stride_bytes = 3 * sizeof(float)) noexcept {
-  CloudView view{};
-  view.points = detail::float3_channel(xyz, sizeof(float), stride_bytes);
-  view.size = count;
-  view.width = count;
-  view.height = 1;
-  return view;
-}
-
-/// View of `count` points x y z (floats) and their colors r g b (bytes), each with its own stride.
-[[nodiscard]] inline CloudView view_xyz_rgb(const float* xyz, const std::uint8_t* rgb, std::size_t count,
-                                            std::size_t xyz_stride_bytes = 3 * sizeof(float),
-                                            std::size_t rgb_stride_bytes = 3) noexcept {
-  CloudView view = view_xyz(xyz, count, xyz_stride_bytes);
-  view.colors = detail::color_channel(rgb, 1, rgb_stride_bytes);
-  return view;
-}
-
-/// The same cloud with `cloud.size` normals x y z (floats), borrowed like the points. `stride_bytes` is the distance
-/// between normals.
-[[nodiscard]] inline CloudView with_normals(CloudView cloud, const SurfaceNormal* normals,
-                                            std::size_t stride_bytes = sizeof(SurfaceNormal)) noexcept {
-  cloud.normals = detail::float3_channel(normals == nullptr ? nullptr : &normals->x, sizeof(float), stride_bytes);
-  return cloud;
-}
-
-/// The same cloud with `cloud.size` intensities (float, std::uint8_t or std::uint16_t), borrowed like the points.
-/// `stride_bytes` is the distance between two of them.
-template <class Scalar>
-[[nodiscard]] CloudView with_intensities(CloudView cloud, const Scalar* intensities,
-                                         std::size_t stride_bytes = sizeof(Scalar)) noexcept {
-  cloud.intensities = detail::scalar_channel(intensities, stride_bytes);
-  return cloud;
-}
-
-/// The same cloud as an image of `width * height` pixels, row by row, for OrganizedSearch.
-[[nodiscard]] inline CloudView organized(CloudView cloud, std::size_t width, std::size_t height) noexcept {
-  cloud.width = width;
-  cloud.height = height;
-  return cloud;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_CLOUD_CLOUD_HPP
 
 // shortshot/cloud/point_lanes.hpp: the points of one register.
 #ifndef SHORTSHOT_CLOUD_POINT_LANES_HPP
@@ -3199,17 +3447,20 @@ struct StandsFor<Kind, Source, std::void_t<decltype(Kind::template accepts<Sourc
 template <class Kind, class... Sources>
 inline constexpr bool has_source = (StandsFor<Kind, Sources>::value || ...);
 
-/// The first source of a set that stands for a kind.
+/// The first source of a set that stands for a kind; there must be one.
 template <class Kind, class First, class... Others>
 [[nodiscard]] constexpr const auto& source_of(const extend::SourceSet<First, Others...>& set) noexcept {
-  static_assert(has_source<Kind, First, Others...>,
-                "describe() needs a source for each of D's signals: RgbColors or LabColors for ColorDistance, "
-                "CloudNormals for NormalCosine, CloudIntensities for Intensity, and your own for your own");
   if constexpr (StandsFor<Kind, First>::value || sizeof...(Others) == 0) {
     return set.first;
   } else {
     return source_of<Kind>(set.others);
   }
+}
+
+/// Is there one for each of these kinds?
+template <class... Kinds, class... Sources>
+constexpr bool has_sources(extend::SourceKinds<Kinds...>, const extend::SourceSet<Sources...>*) noexcept {
+  return (has_source<Kinds, Sources...> && ...);
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -3376,7 +3627,7 @@ struct Distinct<SignalList<Have...>, Next, More...>
 
 /// The place of a signal in the list of them.
 template <class Signal, class... Signals>
-constexpr int place_in(SignalList<Signals...>) noexcept {
+[[gnu::always_inline]] constexpr int place_in(SignalList<Signals...>) noexcept {
   constexpr bool same[] = {std::is_same<MeasuredAs<Signal>, Signals>::value...};
   int place = 0;
   while (!same[place]) ++place;
@@ -3387,15 +3638,23 @@ constexpr int place_in(SignalList<Signals...>) noexcept {
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_DESCRIPTOR_SIGNALS_HPP
 
-// shortshot/descriptor/voting.hpp: how one point is shared among neighboring cells, written once over N axes.
+// shortshot/descriptor/voting.hpp: how one point votes for neighboring bins, written once over N axes: SHOT's
+// quadrilinear interpolation as PCL computes it, the published code's rule, and others.
 //
-// A rule has two steps. split() takes a position along one axis and finds the cell it lies in and the nearer
-// neighboring cell, its partner, with the share of each. combine() makes a list of votes from the shares of all axes:
-// axis 0 radius, 1 elevation, 2 azimuth, and 3 the histogram's signal where the part has one.
-//
-// All of it is integer arithmetic: shares are added up exactly, and indices need no conversion.
+// A rule has two steps. split() takes a position along one axis and finds the bin (of the grid: the cell; of azimuths:
+// the sector) it lies in and the nearer neighboring one, its partner, with the share of each (interpolation.hpp).
+// combine() makes a list of votes from the shares of all axes: axis 0 radius, 1 elevation, 2 azimuth, and 3 the
+// histogram's signal where the part has one.
 #ifndef SHORTSHOT_DESCRIPTOR_VOTING_HPP
 #define SHORTSHOT_DESCRIPTOR_VOTING_HPP
+
+// shortshot/descriptor/interpolation.hpp: linear interpolation along one axis: how a point is shared between the bin it
+// lies in and the nearer neighboring one, its partner.
+//
+// All of it is integer arithmetic: shares are added up exactly, and indices need no conversion. A partner's share is
+// kept twice, in half units, because it is the distance from the bin's middle in units of half a bin.
+#ifndef SHORTSHOT_DESCRIPTOR_INTERPOLATION_HPP
+#define SHORTSHOT_DESCRIPTOR_INTERPOLATION_HPP
 
 namespace shortshot::extend {
 inline namespace SHORTSHOT_TYPES {
@@ -3424,12 +3683,6 @@ struct Votes {
   simd::I32 weight[Count];
 };
 
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::extend
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
 /// The cell of a position. The very end of the axis is the upper border of the last cell.
 [[nodiscard]] SHORTSHOT_INLINE simd::I32 cell_of(const Axis& axis, simd::I32 position) noexcept {
   const simd::I32 cell = simd::small_min(simd::shift_right(position, axis.bits), simd::all_int(axis.cells - 1));
@@ -3447,7 +3700,7 @@ inline namespace SHORTSHOT_CODE {
 [[nodiscard]] SHORTSHOT_INLINE simd::I32 next_around(const Axis& axis, simd::I32 cell, simd::I32 direction) noexcept {
   using simd::all_int;
   const simd::I32 next = cell + direction;
-  if (!small_code && (axis.cells & (axis.cells - 1)) == 0) return next & all_int(axis.cells - 1);
+  if (!detail::small_code && (axis.cells & (axis.cells - 1)) == 0) return next & all_int(axis.cells - 1);
   return (next + keep(is_negative(next), all_int(axis.cells))) -
          keep(next > all_int(axis.cells - 1), all_int(axis.cells));
 }
@@ -3484,13 +3737,13 @@ inline namespace SHORTSHOT_CODE {
 
 /// Are there positions on this axis without a partner?
 [[nodiscard]] constexpr bool may_be_alone(const Axis& axis) noexcept {
-  return small_code || axis.cells == 1 || axis.end == Beyond::nothing || axis.below_zero == BelowZero::nowhere;
+  return detail::small_code || axis.cells == 1 || axis.end == Beyond::nothing || axis.below_zero == BelowZero::nowhere;
 }
 
 template <int Axes>
 [[nodiscard]] SHORTSHOT_INLINE simd::I32 primary_index(const Share (&shares)[4]) noexcept {
   simd::I32 index = shares[0].cell;
-  each<Axes - 1>([&](auto i) { index = index + shares[i + 1].cell; });
+  detail::each<Axes - 1>([&](auto i) { index = index + shares[i + 1].cell; });
   return index;
 }
 
@@ -3498,12 +3751,13 @@ template <int Axes>
 template <int Axes>
 [[nodiscard]] SHORTSHOT_INLINE simd::I32 twice_all_partners(const Share (&shares)[4]) noexcept {
   simd::I32 sum = shares[0].twice_partner;
-  each<Axes - 1>([&](auto i) { sum = sum + shares[i + 1].twice_partner; });
+  detail::each<Axes - 1>([&](auto i) { sum = sum + shares[i + 1].twice_partner; });
   return sum;
 }
 
 }  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
+}  // namespace shortshot::extend
+#endif  // SHORTSHOT_DESCRIPTOR_INTERPOLATION_HPP
 
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
@@ -3530,7 +3784,7 @@ struct AdditiveVoting {
       const extend::simd::Mask below = is_negative(position);
       fraction = keep(below, position) + drop(below, fraction);
     }
-    return detail::share(axis, detail::cell_of(axis, position), fraction, unit, false);
+    return extend::share(axis, extend::cell_of(axis, position), fraction, unit, false);
   }
 
   template <int Axes>
@@ -3539,18 +3793,18 @@ struct AdditiveVoting {
                                                                         const extend::VoteUnit& unit) noexcept {
     using extend::simd::all_int;
     const extend::simd::I32 sum =
-        all_int(Axes * unit.one) - extend::simd::shift_right(detail::twice_all_partners<Axes>(shares), 1);
+        all_int(Axes * unit.one) - extend::simd::shift_right(extend::twice_all_partners<Axes>(shares), 1);
     const extend::simd::I32 rest = sum - all_int(unit.one);
 
     extend::Votes<Axes + 1> votes;
-    votes.index[0] = detail::primary_index<Axes>(shares);
+    votes.index[0] = extend::primary_index<Axes>(shares);
     votes.weight[0] = sum;
     detail::each<Axes>([&](auto i) {
       // A share 1 - p replaced by p.
       extend::simd::I32 weight = rest + shares[i].twice_partner;
       if (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all_int(unit.one));
       votes.index[i + 1] = votes.index[0] + shares[i].step;
-      votes.weight[i + 1] = detail::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
+      votes.weight[i + 1] = extend::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
     });
     return votes;
   }
@@ -3559,10 +3813,11 @@ struct AdditiveVoting {
 /// The published rule to the last quirk: the library's default.
 using PublishedVoting = AdditiveVoting<true>;
 
-/// SHOT's rule: each axis votes by itself. The shares of all axes ADD UP in the primary cell, as in AdditiveVoting, but
-/// an axis' partner gets that axis' share alone. At most 1 + N cells a point; a vote beyond the ends of radius,
-/// elevation or histogram is lost. `WrapLastBin` is a defect of PCL, in whose code the bins of a histogram are counted
-/// one short: a vote from the last bin but one up to the last one goes to the first one instead.
+/// SHOT's rule, its quadrilinear interpolation: each axis votes by itself. The shares of all axes ADD UP in the primary
+/// cell, as in AdditiveVoting, but an axis' partner gets that axis' share alone. At most 1 + N cells a point; a vote
+/// beyond the ends of radius, elevation or histogram is lost. `WrapLastBin` is a defect of PCL, in whose code the bins
+/// of a histogram are counted one short: a vote from the last bin but one up to the last one goes to the first one
+/// instead.
 template <bool WrapLastBin>
 struct SeparateVoting {
   static constexpr const char* name = WrapLastBin ? "PCL voting" : "SHOT voting";
@@ -3573,7 +3828,7 @@ struct SeparateVoting {
 
   [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
                                                             const extend::VoteUnit& unit) noexcept {
-    extend::Share share = detail::share_in_cell(axis, position, unit, true);
+    extend::Share share = extend::share_in_cell(axis, position, unit, true);
     if (axis.below_zero == extend::BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
       const extend::simd::Mask nowhere = is_negative(position);
       share.twice_partner = drop(nowhere, share.twice_partner) + keep(nowhere, extend::simd::all_int(2 * unit.one));
@@ -3588,8 +3843,8 @@ struct SeparateVoting {
                                                                         const extend::VoteUnit& unit) noexcept {
     using extend::simd::all_int;
     extend::Votes<Axes + 1> votes;
-    votes.index[0] = detail::primary_index<Axes>(shares);
-    votes.weight[0] = all_int(2 * Axes * unit.one) - detail::twice_all_partners<Axes>(shares);
+    votes.index[0] = extend::primary_index<Axes>(shares);
+    votes.weight[0] = all_int(2 * Axes * unit.one) - extend::twice_all_partners<Axes>(shares);
     detail::each<Axes>([&](auto i) {
       const extend::simd::I32 weight = shares[i].twice_partner;
       extend::simd::I32 index = votes.index[0] + shares[i].step;
@@ -3598,7 +3853,7 @@ struct SeparateVoting {
         index = index - keep(shares[3].cell + shares[3].step == all_int(last), all_int(last));
       }
       votes.index[i + 1] = index;
-      votes.weight[i + 1] = detail::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
+      votes.weight[i + 1] = extend::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
     });
     return votes;
   }
@@ -3618,19 +3873,20 @@ struct HardVoting {
   [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
                                                             const extend::VoteUnit&) noexcept {
     using extend::simd::all_int;
-    return {detail::times(detail::cell_of(axis, position), axis.stride), all_int(0), all_int(0)};
+    return {extend::times(extend::cell_of(axis, position), axis.stride), all_int(0), all_int(0)};
   }
 
   template <int Axes>
   [[nodiscard]] SHORTSHOT_INLINE static extend::Votes<1> combine(const extend::Axis (&)[4],
                                                                  const extend::Share (&shares)[4],
                                                                  const extend::VoteUnit& unit) noexcept {
-    return {{detail::primary_index<Axes>(shares)}, {extend::simd::all_int(unit.one)}};
+    return {{extend::primary_index<Axes>(shares)}, {extend::simd::all_int(unit.one)}};
   }
 };
 
-/// Multilinear interpolation: shares multiply, over all 2^N cells around the point. A partition of unity (every point
-/// counts exactly once in all: what has no partner stays in the cell) and continuous at every border between cells.
+/// Multilinear interpolation (quadrilinear with a histogram): shares multiply, over all 2^N cells around the point. A
+/// partition of unity (every point counts exactly once in all: what has no partner stays in the cell) and continuous at
+/// every border between cells.
 struct MultilinearVoting {
   static constexpr const char* name = "multilinear voting";
   static constexpr bool partners_get_own_share = false;
@@ -3640,7 +3896,7 @@ struct MultilinearVoting {
 
   [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
                                                             const extend::VoteUnit& unit) noexcept {
-    extend::Share share = detail::share_in_cell(axis, position, unit, false);
+    extend::Share share = extend::share_in_cell(axis, position, unit, false);
     share.twice_partner = drop(share.step == extend::simd::all_int(0), share.twice_partner);
     return share;
   }
@@ -3652,7 +3908,7 @@ struct MultilinearVoting {
     const extend::simd::F32 half = extend::simd::all(0.5f / static_cast<float>(unit.one));
     extend::Votes<(1 << Axes)> votes;
     extend::simd::F32 weight[1 << Axes];
-    votes.index[0] = detail::primary_index<Axes>(shares);
+    votes.index[0] = extend::primary_index<Axes>(shares);
     weight[0] = extend::simd::all(static_cast<float>(unit.one));
     detail::unroll<Axes>([&](auto axis) {
       constexpr int count = 1 << decltype(axis)::value;
@@ -3847,7 +4103,7 @@ struct ShotCells {
 
   /// Five within the radius, the key point and its copies included.
   template <class Neighbors>
-  [[nodiscard]] static bool has_enough(const Neighbors& n, Radius radius) noexcept {
+  [[nodiscard, gnu::always_inline]] static bool has_enough(const Neighbors& n, Radius radius) noexcept {
     std::uint32_t missing = 5;
     for (std::uint32_t i = 0; i < n.size; ++i) {
       if (extend::neighbor_at(n, i).d2 < radius.squared && --missing == 0) return true;
@@ -3966,7 +4222,7 @@ inline namespace SHORTSHOT_TYPES {
 
 /// The largest e such that positions up to any of these numbers of cells, times 2^e, are at most 2^30.
 template <class... Cells>
-constexpr int position_bits(Cells... cells) noexcept {
+[[gnu::always_inline]] constexpr int position_bits(Cells... cells) noexcept {
   int bits = 30;
   for (int covered = 1; ((covered < cells) || ...); covered *= 2) --bits;
   return bits;
@@ -3986,7 +4242,7 @@ struct Part {
   static_assert(
       detail::IsSignal<SignalType>::value,
       "Part<Grid, Signal> supports Occupancy, or a signal derived from extend::Signal<Bins, Kinds...> with "
-      "`static extend::simd::F32 measure(at, sources...)`, one source of each kind: see 'How to add a signal' "
+      "`static extend::simd::F32 measure(at, sources...)`, one source of each kind. See 'How to add a signal' "
       "in include/shortshot/README.md");
   using Grid = GridType;
   using Signal = std::conditional_t<detail::IsSignal<SignalType>::value, SignalType, Occupancy>;  // one error is enough
@@ -4075,7 +4331,7 @@ struct Descriptor {
   static_assert(
       detail::IsVotingRule<VotingRule>::value,
       "Descriptor<Voting, Parts...> supports a voting rule with weight_bits, votes<Axes>, split(axis, position, "
-      "unit) and combine<Axes>(axes, shares, unit): see 'How to add a voting rule' in "
+      "unit) and combine<Axes>(axes, shares, unit). See 'How to add a voting rule' in "
       "include/shortshot/README.md");
   using Voting = std::conditional_t<detail::IsVotingRule<VotingRule>::value, VotingRule, HardVoting>;
   static_assert(sizeof...(Parts) >= 1, "Descriptor<Voting, Parts...> supports one or more parts");
@@ -4213,7 +4469,7 @@ template <class Search>
 [[nodiscard]] inline Status validate_search(const CloudView& cloud, const Search& search) noexcept {
   static_assert(IsSearch<Search>::value,
                 "A search has `Status gather(const Point&, Radius, Neighbors&) const`, `Status status() const` and "
-                "`std::size_t cloud_size() const`: see 'How to add a search' in include/shortshot/README.md");
+                "`std::size_t cloud_size() const`. See 'How to add a search' in include/shortshot/README.md");
   Status status = validate(cloud);
   if constexpr (IsSearch<Search>::value) {
     if (status == Status::ok) status = search.status();
@@ -4943,13 +5199,20 @@ inline constexpr std::size_t chunk_bytes = detail::scratch_bytes<ChunkSize>(D{})
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors, class... Own>
 [[nodiscard]] inline Status describe(const Neighbors& n, const extend::SourceSet<Own...>& sources, const Frame& frame,
                                      Radius radius, float* out) noexcept {
+  constexpr bool has_all = detail::has_sources(typename D::Sources{}, static_cast<extend::SourceSet<Own...>*>(nullptr));
+  static_assert(
+      has_all,
+      "describe() needs a source for each of D's signals: RgbColors or LabColors for ColorDistance, CloudNormals "
+      "for NormalCosine, CloudIntensities for Intensity, and your own for your own");
   std::memset(out, 0, D::size_bytes);
   Status status = validate(radius);
   if (status == Status::ok) status = validate(frame);
-  if (status == Status::ok) status = detail::status_of(typename D::Sources{}, sources);
-  if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
-  if (status != Status::ok) return status;
-  return detail::describe_checked<D, ChunkSize>(n, sources, frame, radius, out);
+  if constexpr (has_all) {
+    if (status == Status::ok) status = detail::status_of(typename D::Sources{}, sources);
+    if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
+    if (status == Status::ok) status = detail::describe_checked<D, ChunkSize>(n, sources, frame, radius, out);
+  }
+  return status;
 }
 
 /// The same with one source.
@@ -7799,7 +8062,7 @@ inline constexpr bool is_row_format =
 }  // namespace shortshot::extend
 
 namespace shortshot::detail {
-inline namespace SHORTSHOT_TYPES {
+inline namespace SHORTSHOT_CODE {
 
 /// Says what is missing.
 template <class Rows>
@@ -7816,7 +8079,7 @@ constexpr void require_row_format() noexcept {
                 "matching supports rows with `float distance(Number compared) const`: see extend::is_row_format");
 }
 
-}  // namespace SHORTSHOT_TYPES
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_RECOGNITION_ROW_FORMAT_HPP
 
@@ -9974,6 +10237,32 @@ class NanoflannSearch {
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_SEARCH_NANOFLANN_HPP
+#else
+
+// shortshot/search/nanoflann_missing.hpp: what stands for NanoflannSearch until <nanoflann.hpp> is there.
+#ifndef SHORTSHOT_SEARCH_NANOFLANN_MISSING_HPP
+#define SHORTSHOT_SEARCH_NANOFLANN_MISSING_HPP
+
+namespace shortshot::detail::not_included {
+inline namespace SHORTSHOT_CODE {
+
+class NanoflannSearch {
+ public:
+  template <class... Options>
+  explicit NanoflannSearch(const CloudView&, const Options&...) {
+    static_assert(sizeof...(Options) > 999,
+                  "NanoflannSearch needs <nanoflann.hpp> included before shortshot.hpp (which may be included again)");
+  }
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail::not_included
+
+namespace shortshot {
+// A directive, not a declaration: the class itself, as soon as it is there, comes before what a directive shows.
+using namespace detail::not_included;
+}  // namespace shortshot
+#endif  // SHORTSHOT_SEARCH_NANOFLANN_MISSING_HPP
 #endif
 
 #if defined(EIGEN_WORLD_VERSION)
@@ -10064,6 +10353,26 @@ CloudView view_eigen(Matrices&&... matrices) = delete;
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_CLOUD_VIEW_EIGEN_HPP
+#else
+
+// shortshot/cloud/view_eigen_missing.hpp: what stands for view_eigen() until <Eigen/Core> is there.
+#ifndef SHORTSHOT_CLOUD_VIEW_EIGEN_MISSING_HPP
+#define SHORTSHOT_CLOUD_VIEW_EIGEN_MISSING_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// The worst of all matches: where Eigen is there, view_eigen.hpp's is taken.
+template <class... Arguments>
+CloudView view_eigen(const Arguments&...) noexcept {
+  static_assert(sizeof...(Arguments) > 999,
+                "view_eigen() needs <Eigen/Core> included before shortshot.hpp (which may be included again)");
+  return {};
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_CLOUD_VIEW_EIGEN_MISSING_HPP
 #endif
 
 // shortshot/macros_on.hpp: the macros that macros_off.hpp set aside, as they were.

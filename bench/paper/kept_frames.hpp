@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "paper/library.hpp"
+#include "shortshot/shortshot.hpp"
 
 namespace shortshot_bench::paper {
 

@@ -6,13 +6,16 @@
 // memory of its own, matching, poses, the recognizer, files.
 //
 // Two things need another library, included before this header: <nanoflann.hpp> for NanoflannSearch, <Eigen/Core> for
-// view_eigen(). Whoever comes too late includes this header once more: what is new is added.
+// view_eigen(). Whoever comes too late includes this header once more: what is new is added. Without them, the compiler
+// says what is missing where one of the two is used.
 //
 // Macros of other headers (min, near, Status, ...) do no harm here, whether they come before it or after it. In your own
 // code they do what they always do.
 
 #include "macros_off.hpp"
 
+#include "cloud/view_of.hpp"
+#include "cloud/view_point_cloud2.hpp"
 #include "kernel.hpp"
 
 #if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
@@ -32,10 +35,14 @@
 
 #if defined(NANOFLANN_VERSION)
 #include "search/nanoflann.hpp"
+#else
+#include "search/nanoflann_missing.hpp"
 #endif
 
 #if defined(EIGEN_WORLD_VERSION)
 #include "cloud/view_eigen.hpp"
+#else
+#include "cloud/view_eigen_missing.hpp"
 #endif
 
 #include "macros_on.hpp"

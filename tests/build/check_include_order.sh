@@ -33,7 +33,7 @@ find shortshot -name '*.hpp' | LC_ALL=C sort | xargs awk -v at_most="${2:-60}" '
   BEGIN {
     count = split("foundation base cloud color search frame descriptor kernel batch store recognition umbrella", names, " ")
     for (i = 1; i <= count; ++i) rank[names[i]] = i
-    split("config.hpp version.hpp status.hpp", foundation, " ")
+    split("config.hpp version.hpp status.hpp macros_off.hpp macros_on.hpp", foundation, " ")
     split("kernel.hpp self_check.hpp shortshot.hpp", umbrellas, " ")
     for (i in foundation) folder_of["shortshot/" foundation[i]] = "foundation"
     for (i in umbrellas) folder_of["shortshot/" umbrellas[i]] = "umbrella"

@@ -40,6 +40,20 @@ depends(readme.firmware.symbols readme.firmware)
 depends(readme.firmware.links readme.firmware)
 depends(readme.firmware.runs readme.firmware.links)
 
+# ---- The map: how to add a signal, a voting rule, ... ----------------------------------------------------------------
+
+set(additions add_signal add_voting_rule add_search add_frame)
+string(REPLACE ";" "," names "${additions}")
+build_test(map "${CMAKE_COMMAND}" "-DDOCUMENT=${PROJECT_SOURCE_DIR}/include/shortshot/README.md" "-DEXAMPLES=${names}"
+  "-DOUTPUT_DIR=${there}/map" -P "${here}/extract_examples.cmake")
+foreach(addition IN LISTS additions)
+  build_test(map.${addition} "${CMAKE_CXX_COMPILER}" -std=c++17 -Wall -Wextra -Wconversion -Wshadow -Werror
+    "${single_header_flag}" "${there}/map/${addition}.cpp" -o "${there}/map/${addition}")
+  build_test(map.${addition}.runs "${there}/map/${addition}")
+  depends(map.${addition} map)
+  depends(map.${addition}.runs map.${addition})
+endforeach()
+
 # ---- The page for firmware engineers, and manifests ------------------------------------------------------------------
 
 set(page "${there}/firmware_page")

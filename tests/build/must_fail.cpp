@@ -89,4 +89,60 @@ struct NamelessVoting : shortshot::PublishedVoting {
   static constexpr int name = 0;
 };
 std::string text() { return shortshot::layout_of<shortshot::Ssh<Grid<2, 2, 8>, NamelessVoting>>(); }
+#elif CASE == 22
+template <int Bins>
+struct Unmeasured : shortshot::extend::Signal<Bins> {  // nothing says where its values come from
+  static constexpr const char* name = "unmeasured";
+};
+static_assert(shortshot::Part<Grid<2, 2, 8>, Unmeasured<15>>::size > 0, "");
+#elif CASE == 23
+template <int Bins>
+struct Tinted
+    : shortshot::extend::Signal<Bins, shortshot::CloudNormals, shortshot::RgbColors<shortshot::PublishedLab>> {
+  static constexpr const char* name = "tinted";
+  template <class At, class Normals>
+  static shortshot::extend::simd::F32 measure(const At& at, const Normals& normals);  // one source of its two
+};
+static_assert(shortshot::Part<Grid<2, 2, 8>, Tinted<15>>::size > 0, "");
+#elif CASE == 24
+struct Loud {};
+static_assert(shortshot::Part<Grid<2, 2, 8>, Loud>::size > 0, "");
+#elif CASE == 25
+struct Temperatures {
+  static shortshot::Status status() { return shortshot::Status::ok; }
+};
+template <int Bins>
+struct Warmth : shortshot::extend::Signal<Bins, Temperatures> {
+  static constexpr const char* name = "warmth";
+  template <class At>
+  static shortshot::extend::simd::F32 measure(const At&, const Temperatures&) {
+    return shortshot::extend::simd::all(0.5f);
+  }
+};
+using D = shortshot::Descriptor<shortshot::PublishedVoting, shortshot::Part<Grid<2, 2, 8>, Warmth<15>>>;
+shortshot::Status no_source(const shortshot::CloudView& cloud, shortshot::Features<D>& out) {
+  return shortshot::extract(cloud, shortshot::BruteSearch{cloud}, std::vector<int>{0}, 0.1f, out);
+}
+#elif CASE == 26
+struct Undecided {  // splits, and never combines
+  static constexpr const char* name = "undecided";
+  static constexpr int weight_bits = 2;
+  static shortshot::extend::Share split(const shortshot::extend::Axis&, shortshot::extend::simd::I32,
+                                        const shortshot::extend::VoteUnit&);
+};
+static_assert(shortshot::Ssh<Grid<2, 2, 8>, Undecided>::size > 0, "");
+#elif CASE == 27
+struct Blind {  // does not say over which cloud it searches
+  static shortshot::Status status() { return shortshot::Status::ok; }
+  template <class Neighbors>
+  shortshot::Status gather(const shortshot::Point&, shortshot::Radius, Neighbors&) const;
+};
+shortshot::Status wrong_search(const shortshot::CloudView& cloud, float* out) {
+  Workspace<5> workspace;
+  return shortshot::describe_at<shortshot::Ssh32>(cloud, Blind{}, 0, 0.1f, workspace, out);
+}
+#elif CASE == 28
+shortshot::NanoflannSearch search(shortshot::CloudView{});
+#elif CASE == 29
+shortshot::CloudView eigen_view(const std::array<float, 3>& matrix) { return shortshot::view_eigen(matrix); }
 #endif

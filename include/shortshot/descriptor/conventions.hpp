@@ -96,7 +96,7 @@ struct ShotCells {
 
   /// Five within the radius, the key point and its copies included.
   template <class Neighbors>
-  [[nodiscard]] static bool has_enough(const Neighbors& n, Radius radius) noexcept {
+  [[nodiscard, gnu::always_inline]] static bool has_enough(const Neighbors& n, Radius radius) noexcept {
     std::uint32_t missing = 5;
     for (std::uint32_t i = 0; i < n.size; ++i) {
       if (extend::neighbor_at(n, i).d2 < radius.squared && --missing == 0) return true;

@@ -20,7 +20,7 @@ inline namespace SHORTSHOT_TYPES {
 
 /// The largest e such that positions up to any of these numbers of cells, times 2^e, are at most 2^30.
 template <class... Cells>
-constexpr int position_bits(Cells... cells) noexcept {
+[[gnu::always_inline]] constexpr int position_bits(Cells... cells) noexcept {
   int bits = 30;
   for (int covered = 1; ((covered < cells) || ...); covered *= 2) --bits;
   return bits;
@@ -40,7 +40,7 @@ struct Part {
   static_assert(
       detail::IsSignal<SignalType>::value,
       "Part<Grid, Signal> supports Occupancy, or a signal derived from extend::Signal<Bins, Kinds...> with "
-      "`static extend::simd::F32 measure(at, sources...)`, one source of each kind: see 'How to add a signal' "
+      "`static extend::simd::F32 measure(at, sources...)`, one source of each kind. See 'How to add a signal' "
       "in include/shortshot/README.md");
   using Grid = GridType;
   using Signal = std::conditional_t<detail::IsSignal<SignalType>::value, SignalType, Occupancy>;  // one error is enough
@@ -129,7 +129,7 @@ struct Descriptor {
   static_assert(
       detail::IsVotingRule<VotingRule>::value,
       "Descriptor<Voting, Parts...> supports a voting rule with weight_bits, votes<Axes>, split(axis, position, "
-      "unit) and combine<Axes>(axes, shares, unit): see 'How to add a voting rule' in "
+      "unit) and combine<Axes>(axes, shares, unit). See 'How to add a voting rule' in "
       "include/shortshot/README.md");
   using Voting = std::conditional_t<detail::IsVotingRule<VotingRule>::value, VotingRule, HardVoting>;
   static_assert(sizeof...(Parts) >= 1, "Descriptor<Voting, Parts...> supports one or more parts");

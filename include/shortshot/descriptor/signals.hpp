@@ -143,7 +143,7 @@ struct Distinct<SignalList<Have...>, Next, More...>
 
 /// The place of a signal in the list of them.
 template <class Signal, class... Signals>
-constexpr int place_in(SignalList<Signals...>) noexcept {
+[[gnu::always_inline]] constexpr int place_in(SignalList<Signals...>) noexcept {
   constexpr bool same[] = {std::is_same<MeasuredAs<Signal>, Signals>::value...};
   int place = 0;
   while (!same[place]) ++place;

@@ -56,17 +56,20 @@ struct StandsFor<Kind, Source, std::void_t<decltype(Kind::template accepts<Sourc
 template <class Kind, class... Sources>
 inline constexpr bool has_source = (StandsFor<Kind, Sources>::value || ...);
 
-/// The first source of a set that stands for a kind.
+/// The first source of a set that stands for a kind; there must be one.
 template <class Kind, class First, class... Others>
 [[nodiscard]] constexpr const auto& source_of(const extend::SourceSet<First, Others...>& set) noexcept {
-  static_assert(has_source<Kind, First, Others...>,
-                "describe() needs a source for each of D's signals: RgbColors or LabColors for ColorDistance, "
-                "CloudNormals for NormalCosine, CloudIntensities for Intensity, and your own for your own");
   if constexpr (StandsFor<Kind, First>::value || sizeof...(Others) == 0) {
     return set.first;
   } else {
     return source_of<Kind>(set.others);
   }
+}
+
+/// Is there one for each of these kinds?
+template <class... Kinds, class... Sources>
+constexpr bool has_sources(extend::SourceKinds<Kinds...>, const extend::SourceSet<Sources...>*) noexcept {
+  return (has_source<Kinds, Sources...> && ...);
 }
 
 }  // namespace SHORTSHOT_CODE

@@ -127,13 +127,20 @@ inline constexpr std::size_t chunk_bytes = detail::scratch_bytes<ChunkSize>(D{})
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors, class... Own>
 [[nodiscard]] inline Status describe(const Neighbors& n, const extend::SourceSet<Own...>& sources, const Frame& frame,
                                      Radius radius, float* out) noexcept {
+  constexpr bool has_all = detail::has_sources(typename D::Sources{}, static_cast<extend::SourceSet<Own...>*>(nullptr));
+  static_assert(
+      has_all,
+      "describe() needs a source for each of D's signals: RgbColors or LabColors for ColorDistance, CloudNormals "
+      "for NormalCosine, CloudIntensities for Intensity, and your own for your own");
   std::memset(out, 0, D::size_bytes);
   Status status = validate(radius);
   if (status == Status::ok) status = validate(frame);
-  if (status == Status::ok) status = detail::status_of(typename D::Sources{}, sources);
-  if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
-  if (status != Status::ok) return status;
-  return detail::describe_checked<D, ChunkSize>(n, sources, frame, radius, out);
+  if constexpr (has_all) {
+    if (status == Status::ok) status = detail::status_of(typename D::Sources{}, sources);
+    if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
+    if (status == Status::ok) status = detail::describe_checked<D, ChunkSize>(n, sources, frame, radius, out);
+  }
+  return status;
 }
 
 /// The same with one source.

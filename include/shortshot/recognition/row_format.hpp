@@ -77,7 +77,7 @@ inline constexpr bool is_row_format =
 }  // namespace shortshot::extend
 
 namespace shortshot::detail {
-inline namespace SHORTSHOT_TYPES {
+inline namespace SHORTSHOT_CODE {
 
 /// Says what is missing.
 template <class Rows>
@@ -94,5 +94,5 @@ constexpr void require_row_format() noexcept {
                 "matching supports rows with `float distance(Number compared) const`: see extend::is_row_format");
 }
 
-}  // namespace SHORTSHOT_TYPES
+}  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail

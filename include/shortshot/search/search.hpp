@@ -42,7 +42,7 @@ template <class Search>
 [[nodiscard]] inline Status validate_search(const CloudView& cloud, const Search& search) noexcept {
   static_assert(IsSearch<Search>::value,
                 "A search has `Status gather(const Point&, Radius, Neighbors&) const`, `Status status() const` and "
-                "`std::size_t cloud_size() const`: see 'How to add a search' in include/shortshot/README.md");
+                "`std::size_t cloud_size() const`. See 'How to add a search' in include/shortshot/README.md");
   Status status = validate(cloud);
   if constexpr (IsSearch<Search>::value) {
     if (status == Status::ok) status = search.status();

@@ -54,8 +54,8 @@ void compare(const Task& task, const std::vector<NaivePart>& parts, OracleDescri
     alike +=
         ss::extend::dot(frame.x, their_frame.x) > 0.999f && ss::extend::dot(frame.z, their_frame.z) > 0.999f ? 1 : 0;
 
-    const auto colors = ss::detail::colors_of<D>(view, ss::color(view, key));
-    REQUIRE(ss::describe<D>(n, colors, frame, task.radius, our_rows.data() + row * size) == ss::Status::ok);
+    const auto sources = ss::detail::sources_at(typename D::Sources{}, view, ss::keypoint(view, key));
+    REQUIRE(ss::describe<D>(n, sources, frame, task.radius, our_rows.data() + row * size) == ss::Status::ok);
     std::vector<double> descriptor;
     naive.describe(key, theirs, frame, parts, descriptor);
     REQUIRE(descriptor.size() == size);

@@ -89,7 +89,7 @@ TEST_CASE(
   const auto has_normals_within = [&](float radius) {
     std::vector<shortshot::SurfaceNormal> expected;
     const shortshot::GridSearch search(view, radius);
-    const shortshot::Point camera{0.1f, -0.2f, -0.3f};
+    const auto camera = shortshot::Viewpoint::towards({0.1f, -0.2f, -0.3f});
     REQUIRE(shortshot::estimate_normals(view, search, radius, camera, expected) == shortshot::Status::ok);
     const DemoResult result = run_demo(scene, options);
     REQUIRE(result.normals.size() == expected.size());
@@ -106,7 +106,7 @@ TEST_CASE("the layout is told in the order of the values") {
   options.descriptor = "cshot1344";
   CHECK(run_demo(small_scene(), options).layout ==
         std::vector<std::string>{
-            "normals: 8 azimuth x 2 radial x 2 elevation cells x 11 bins, the last index fastest",
+            "normal cosine: 8 azimuth x 2 radial x 2 elevation cells x 11 bins, the last index fastest",
             "color distance: 8 azimuth x 2 radial x 2 elevation cells x 31 bins, the last index fastest"});
   options.descriptor = "scsh336";
   CHECK(run_demo(small_scene(), options).layout ==

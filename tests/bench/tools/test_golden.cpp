@@ -188,7 +188,7 @@ TEST_CASE("golden: a refusal to give a frame is no excuse where there is one") {
   std::vector<float> d2(6);
   std::vector<std::uint32_t> index = {0, 1, 2, 3, 4, 5};
   for (std::size_t i = 0; i < 6; ++i) d2[i] = (v[0][i] * v[0][i] + v[1][i] * v[1][i]) + v[2][i] * v[2][i];
-  const shortshot::Neighborhood n{v[0].data(), v[1].data(), v[2].data(), d2.data(), index.data(), 6, 6, 6};
+  const shortshot::Neighborhood n{v[0].data(), v[1].data(), v[2].data(), d2.data(), index.data(), 6, 6, 6, {}};
   shortshot::Frame frame;
   REQUIRE(shortshot::estimate_frame(n, 1.0F, frame) == shortshot::Status::ok);
   float reference[9];

@@ -133,10 +133,10 @@ TEST_CASE("keep_best_frames: what was left out is matched with nothing") {
   ss::Features<D> features = extracted(curved_surface(3, 1500));
   const ss::Features<D> all = features;
   REQUIRE(ss::keep_best_frames(features, 0.25f) == Status::ok);
-  std::vector<ss::Correspondence> pairs;
+  std::vector<ss::MatchedPair> pairs;
   REQUIRE(ss::reciprocal_correspondences(ss::rows_of(features), ss::rows_of(all), pairs) == Status::ok);
   CHECK(pairs.size() == count_of(features, Status::ok));  // each its own partner
-  for (const ss::Correspondence& pair : pairs) {
+  for (const ss::MatchedPair& pair : pairs) {
     CHECK(pair.source == pair.target);
     CHECK(features.status[pair.source] == Status::ok);
   }

@@ -125,12 +125,12 @@ TEST_CASE("frame confidence: a viewpoint that tells outvotes all members, one th
   const TestCloud cloud = curved_surface(4, 800);
   for (std::size_t i = 0; i < cloud.size(); i += 40) {
     const Estimate by_vote = estimate(cloud, cloud.at(i), 0.05f);
-    const float nowhere[3] = {};
+    const auto here = ss::Viewpoint::towards(cloud.at(i));
     const Estimate by_view = estimate(cloud, cloud.at(i), 0.05f, ss::Viewpoint::towards({0.1f, -0.2f, -9.0f}));
     CHECK(by_view.of.z_margin == 0.5f);
     CHECK(by_view.of.x_margin == by_vote.of.x_margin);
     CHECK(by_view.of.eigenvalue_gap == by_vote.of.eigenvalue_gap);
-    CHECK(same_bits(estimate(cloud, cloud.at(i), 0.05f, nowhere).of, by_vote.of));
+    CHECK(same_bits(estimate(cloud, cloud.at(i), 0.05f, here).of, by_vote.of));
   }
 }
 
@@ -138,7 +138,7 @@ TEST_CASE("frame confidence: zeros where there is no frame") {
   const TestCloud cloud = curved_surface(5, 300);
   TestCloud line;
   for (int k = 0; k < 9; ++k) line.add(0.01f * static_cast<float>(k), 0.0f, 0.0f);
-  const float bad[3] = {not_a_number, 0.0f, 0.0f};
+  const auto bad = ss::Viewpoint::towards({not_a_number, 0.0f, 0.0f});
   const auto check_zeros = [](const Estimate& made, Status expected) {
     CHECK(made.status == expected);
     CHECK(same_bits(made.of, ss::FrameConfidence{}));
@@ -166,7 +166,7 @@ TEST_CASE("frame confidence: the same bits for any order, search and memory, and
     CHECK(same_bits(estimate(grid, cloud.size(), cloud.at(i), 0.04f).of, expected.of));
     CHECK(same_bits(estimate(doubled, doubled.at(i), 0.08f).of, expected.of));
     CHECK(same_bits(estimate(reversed, cloud.at(i), 0.04f).of, expected.of));
-    auto n = ss::neighborhood_in(workspace, cloud.view(), cloud.at(i));
+    auto n = ss::neighborhood_in(workspace, cloud.view());
     REQUIRE(grid.gather(cloud.at(i), 0.04f, n) == Status::ok);
     ss::Frame frame{};
     ss::FrameConfidence compact{};
@@ -210,7 +210,8 @@ TEST_CASE("frame confidence: on noisy surfaces, the surer half has a fifth of th
       const Estimate first = estimate(in_once, once.size(), center, 0.04f);
       const Estimate second = estimate(in_again, again.size(), center, 0.04f);
       REQUIRE((first.status == Status::ok && second.status == Status::ok));
-      const float trace = ss::extend::dot(first.frame.x, second.frame.x) + ss::extend::dot(first.frame.y, second.frame.y) +
+      const float trace = ss::extend::dot(first.frame.x, second.frame.x) +
+                          ss::extend::dot(first.frame.y, second.frame.y) +
                           ss::extend::dot(first.frame.z, second.frame.z);
       sightings.push_back({ss::confidence(first.of), trace < 1.0f + 2.0f * 0.79864f});  // cosine of 37 degrees
     }
