@@ -8043,8 +8043,8 @@ inline namespace SHORTSHOT_TYPES {
 /// Can Rows be given to nearest(), reciprocal_correspondences() and ratio_correspondences()? They take whatever has
 ///
 ///     struct Rows {  // borrowed: copied, and asked by several threads at the same time
-///       std::size_t count;             // how many there are
-///       const shortshot::Status* status;  // one per row: those that are not ok are left out; null: all are ok
+///       std::size_t count;                   // how many there are
+///       const shortshot::Status* status;     // one per row: those that are not ok are left out; null: all are ok
 ///       bool fits(const Rows& other) const;  // can they be compared? bad_rows if not
 ///       Number compare(std::size_t row, const Rows& other, std::size_t others_row) const;
 ///       float distance(Number compared) const;  // what Match::distance says of it
@@ -8055,8 +8055,8 @@ inline namespace SHORTSHOT_TYPES {
 /// and BitRows are made like that, and rows of floats (DescriptorRows) compared faster, by matrix products.
 template <class Rows>
 inline constexpr bool is_row_format =
-    detail::HasCount<Rows>::value&& detail::HasStatus<Rows>::value&& detail::HasFits<Rows>::value&&
-        std::is_arithmetic<typename detail::RowsNumber<Rows>::type>::value&& detail::HasDistance<Rows>::value;
+    std::conjunction<detail::HasCount<Rows>, detail::HasStatus<Rows>, detail::HasFits<Rows>,
+                     std::is_arithmetic<typename detail::RowsNumber<Rows>::type>, detail::HasDistance<Rows>>::value;
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::extend
@@ -8552,8 +8552,8 @@ template <class Rows = DescriptorRows, class Threads = unsigned>
 
   auto&& executor = detail::executor_of(threads, detail::query_blocks(queries.count));
   const auto best = detail::nearest_candidates(queries, database, k, executor);
-  out.reserve(best.size());
-  for (const auto& candidate : best) out.push_back({candidate.row, detail::distance_of(queries, candidate)});
+  out.resize(best.size());
+  for (std::size_t i = 0; i < best.size(); ++i) out[i] = {best[i].row, detail::distance_of(queries, best[i])};
   return Status::ok;
 }
 
@@ -8994,10 +8994,6 @@ inline namespace SHORTSHOT_TYPES {
 
 /// Every descriptor of a training view is a codeword.
 struct Codebook {
-  struct Instance {
-    std::uint32_t object_class;
-    std::string name;
-  };
   struct Codeword {
     std::uint32_t instance;
     Point center;  // of the training view, in the key point's frame
@@ -9006,7 +9002,8 @@ struct Codebook {
   std::string layout;
   std::size_t row_size = 0;
   std::vector<std::string> classes;
-  std::vector<Instance> instances;
+  std::vector<std::string> instances;
+  std::vector<std::uint32_t> class_of;  // of each instance
   std::vector<Codeword> codewords;
   std::vector<float> values;  // codewords.size() * row_size
 };
@@ -9069,18 +9066,21 @@ inline namespace SHORTSHOT_CODE {
   const std::size_t count = codebook.classes.size();
   std::size_t number = 0;
   while (number < count && codebook.classes[number] != name) ++number;
-  if (number == count) codebook.classes.emplace_back(name);
+  if (number == count) codebook.classes.push_back(std::string(name));
   return static_cast<std::uint32_t>(number);
 }
 [[nodiscard]] inline std::uint32_t instance_number(Codebook& codebook, std::uint32_t object_class,
                                                    std::string_view name) {
   const std::size_t count = codebook.instances.size();
-  std::size_t number = 0;
-  const auto is_it = [&](const Codebook::Instance& instance) {
-    return instance.object_class == object_class && instance.name == name;
+  const auto is_it = [&](std::size_t i) {
+    return codebook.class_of[i] == object_class && codebook.instances[i] == name;
   };
-  while (number < count && !is_it(codebook.instances[number])) ++number;
-  if (number == count) codebook.instances.push_back({object_class, std::string(name)});
+  std::size_t number = 0;
+  while (number < count && !is_it(number)) ++number;
+  if (number == count) {
+    codebook.instances.push_back(std::string(name));
+    codebook.class_of.push_back(object_class);
+  }
   return static_cast<std::uint32_t>(number);
 }
 
@@ -9277,12 +9277,8 @@ class Recognizer {
   [[nodiscard]] const std::string& class_name(std::size_t object_class) const {
     return codebook_.classes[object_class];
   }
-  [[nodiscard]] const std::string& instance_name(std::size_t instance) const {
-    return codebook_.instances[instance].name;
-  }
-  [[nodiscard]] std::uint32_t class_of(std::size_t instance) const {
-    return codebook_.instances[instance].object_class;
-  }
+  [[nodiscard]] const std::string& instance_name(std::size_t instance) const { return codebook_.instances[instance]; }
+  [[nodiscard]] std::uint32_t class_of(std::size_t instance) const { return codebook_.class_of[instance]; }
 
   /// What the first training view's descriptors were, and how many values they had; empty and 0 before it.
   [[nodiscard]] const std::string& layout() const noexcept { return codebook_.layout; }
@@ -9808,9 +9804,9 @@ inline void write(ByteWriter& to, const RecognizerOptions& options, const Codebo
   to.count(codebook.classes.size());
   for (const std::string& name : codebook.classes) to.name(name);
   to.count(codebook.instances.size());
-  for (const Codebook::Instance& instance : codebook.instances) {
-    to.number(instance.object_class);
-    to.name(instance.name);
+  for (std::size_t i = 0; i < codebook.instances.size(); ++i) {
+    to.number(codebook.class_of[i]);
+    to.name(codebook.instances[i]);
   }
   to.count(codebook.codewords.size());
   for (const Codebook::Codeword& codeword : codebook.codewords) {
@@ -9830,8 +9826,8 @@ inline void write(ByteWriter& to, const RecognizerOptions& options, const Codebo
   from.require(validate(options) == Status::ok);
   for (std::size_t i = from.count(8); i > 0 && from.good(); --i) codebook.classes.push_back(from.name());
   for (std::size_t i = from.count(12); i > 0 && from.good(); --i) {
-    const std::uint32_t object_class = from.index(codebook.classes.size());
-    codebook.instances.push_back({object_class, from.name()});
+    codebook.class_of.push_back(from.index(codebook.classes.size()));
+    codebook.instances.push_back(from.name());
   }
   const std::size_t codewords = from.count(16);
   from.require(codewords > 0 && codewords < no_row);

@@ -23,10 +23,6 @@ inline namespace SHORTSHOT_TYPES {
 
 /// Every descriptor of a training view is a codeword.
 struct Codebook {
-  struct Instance {
-    std::uint32_t object_class;
-    std::string name;
-  };
   struct Codeword {
     std::uint32_t instance;
     Point center;  // of the training view, in the key point's frame
@@ -35,7 +31,8 @@ struct Codebook {
   std::string layout;
   std::size_t row_size = 0;
   std::vector<std::string> classes;
-  std::vector<Instance> instances;
+  std::vector<std::string> instances;
+  std::vector<std::uint32_t> class_of;  // of each instance
   std::vector<Codeword> codewords;
   std::vector<float> values;  // codewords.size() * row_size
 };
@@ -98,18 +95,21 @@ inline namespace SHORTSHOT_CODE {
   const std::size_t count = codebook.classes.size();
   std::size_t number = 0;
   while (number < count && codebook.classes[number] != name) ++number;
-  if (number == count) codebook.classes.emplace_back(name);
+  if (number == count) codebook.classes.push_back(std::string(name));
   return static_cast<std::uint32_t>(number);
 }
 [[nodiscard]] inline std::uint32_t instance_number(Codebook& codebook, std::uint32_t object_class,
                                                    std::string_view name) {
   const std::size_t count = codebook.instances.size();
-  std::size_t number = 0;
-  const auto is_it = [&](const Codebook::Instance& instance) {
-    return instance.object_class == object_class && instance.name == name;
+  const auto is_it = [&](std::size_t i) {
+    return codebook.class_of[i] == object_class && codebook.instances[i] == name;
   };
-  while (number < count && !is_it(codebook.instances[number])) ++number;
-  if (number == count) codebook.instances.push_back({object_class, std::string(name)});
+  std::size_t number = 0;
+  while (number < count && !is_it(number)) ++number;
+  if (number == count) {
+    codebook.instances.push_back(std::string(name));
+    codebook.class_of.push_back(object_class);
+  }
   return static_cast<std::uint32_t>(number);
 }
 

@@ -139,8 +139,8 @@ template <class Rows = DescriptorRows, class Threads = unsigned>
 
   auto&& executor = detail::executor_of(threads, detail::query_blocks(queries.count));
   const auto best = detail::nearest_candidates(queries, database, k, executor);
-  out.reserve(best.size());
-  for (const auto& candidate : best) out.push_back({candidate.row, detail::distance_of(queries, candidate)});
+  out.resize(best.size());
+  for (std::size_t i = 0; i < best.size(); ++i) out[i] = {best[i].row, detail::distance_of(queries, best[i])};
   return Status::ok;
 }
 

@@ -40,9 +40,9 @@ inline void write(ByteWriter& to, const RecognizerOptions& options, const Codebo
   to.count(codebook.classes.size());
   for (const std::string& name : codebook.classes) to.name(name);
   to.count(codebook.instances.size());
-  for (const Codebook::Instance& instance : codebook.instances) {
-    to.number(instance.object_class);
-    to.name(instance.name);
+  for (std::size_t i = 0; i < codebook.instances.size(); ++i) {
+    to.number(codebook.class_of[i]);
+    to.name(codebook.instances[i]);
   }
   to.count(codebook.codewords.size());
   for (const Codebook::Codeword& codeword : codebook.codewords) {
@@ -62,8 +62,8 @@ inline void write(ByteWriter& to, const RecognizerOptions& options, const Codebo
   from.require(validate(options) == Status::ok);
   for (std::size_t i = from.count(8); i > 0 && from.good(); --i) codebook.classes.push_back(from.name());
   for (std::size_t i = from.count(12); i > 0 && from.good(); --i) {
-    const std::uint32_t object_class = from.index(codebook.classes.size());
-    codebook.instances.push_back({object_class, from.name()});
+    codebook.class_of.push_back(from.index(codebook.classes.size()));
+    codebook.instances.push_back(from.name());
   }
   const std::size_t codewords = from.count(16);
   from.require(codewords > 0 && codewords < no_row);

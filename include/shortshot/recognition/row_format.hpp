@@ -58,8 +58,8 @@ inline namespace SHORTSHOT_TYPES {
 /// Can Rows be given to nearest(), reciprocal_correspondences() and ratio_correspondences()? They take whatever has
 ///
 ///     struct Rows {  // borrowed: copied, and asked by several threads at the same time
-///       std::size_t count;             // how many there are
-///       const shortshot::Status* status;  // one per row: those that are not ok are left out; null: all are ok
+///       std::size_t count;                   // how many there are
+///       const shortshot::Status* status;     // one per row: those that are not ok are left out; null: all are ok
 ///       bool fits(const Rows& other) const;  // can they be compared? bad_rows if not
 ///       Number compare(std::size_t row, const Rows& other, std::size_t others_row) const;
 ///       float distance(Number compared) const;  // what Match::distance says of it
@@ -70,8 +70,8 @@ inline namespace SHORTSHOT_TYPES {
 /// and BitRows are made like that, and rows of floats (DescriptorRows) compared faster, by matrix products.
 template <class Rows>
 inline constexpr bool is_row_format =
-    detail::HasCount<Rows>::value&& detail::HasStatus<Rows>::value&& detail::HasFits<Rows>::value&&
-        std::is_arithmetic<typename detail::RowsNumber<Rows>::type>::value&& detail::HasDistance<Rows>::value;
+    std::conjunction<detail::HasCount<Rows>, detail::HasStatus<Rows>, detail::HasFits<Rows>,
+                     std::is_arithmetic<typename detail::RowsNumber<Rows>::type>, detail::HasDistance<Rows>>::value;
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::extend
