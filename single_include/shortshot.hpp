@@ -13,74 +13,10 @@
 // view_eigen(). Whoever comes too late includes this header once more: what is new is added. Without them, the compiler
 // says what is missing where one of the two is used.
 //
-// Macros of other headers (min, near, Status, ...) do no harm here, whether they come before it or after it. In your own
-// code they do what they always do.
+// Macros of other headers (min, near, Status, ...) do no harm here, whether they come before it or after it. In your
+// own code they do what they always do.
 
-// shortshot/macros_off.hpp: macros of other headers that are words here (X11, Windows, Arduino, Apple), set aside until
-// macros_on.hpp puts them back. No include guard: the umbrella includes both as often as it is included.
-
-#pragma push_macro("abs")
-#undef abs
-#pragma push_macro("round")
-#undef round
-#pragma push_macro("min")
-#undef min
-#pragma push_macro("max")
-#undef max
-#pragma push_macro("near")
-#undef near
-#pragma push_macro("far")
-#undef far
-#pragma push_macro("small")
-#undef small
-#pragma push_macro("check")
-#undef check
-#pragma push_macro("require")
-#undef require
-#pragma push_macro("verify")
-#undef verify
-#pragma push_macro("Status")
-#undef Status
-#pragma push_macro("Success")
-#undef Success
-#pragma push_macro("None")
-#undef None
-#pragma push_macro("Always")
-#undef Always
-#pragma push_macro("Bool")
-#undef Bool
-#pragma push_macro("True")
-#undef True
-#pragma push_macro("False")
-#undef False
-#pragma push_macro("Complex")
-#undef Complex
-#pragma push_macro("constrain")
-#undef constrain
-#pragma push_macro("radians")
-#undef radians
-#pragma push_macro("degrees")
-#undef degrees
-#pragma push_macro("sq")
-#undef sq
-#pragma push_macro("bit")
-#undef bit
-#pragma push_macro("word")
-#undef word
-#pragma push_macro("PI")
-#undef PI
-#pragma push_macro("DEFAULT")
-#undef DEFAULT
-#pragma push_macro("ERROR")
-#undef ERROR
-#pragma push_macro("OPTIONAL")
-#undef OPTIONAL
-#pragma push_macro("IN")
-#undef IN
-#pragma push_macro("OUT")
-#undef OUT
-#pragma push_macro("I")
-#undef I
+// clang-format off: in this order
 
 // shortshot/cloud/view_of.hpp: views of containers of structs, PCL's clouds among them, by their members' names.
 //
@@ -243,10 +179,10 @@ enum class [[nodiscard]] Status : std::uint8_t {
   too_few_pairs,       ///< fewer than three correspondences
   no_pose,             ///< no rigid motion that at least three correspondences agree on
   not_trained,         ///< the recognizer has no training view with a descriptor
-  not_a_model,         ///< the bytes are no recognizer's
-  other_version,       ///< the model was written by a version with another format
-  other_descriptor,    ///< descriptors of another layout than the model was trained with
-  damaged_model,       ///< the model is truncated, or its checksum or contents are wrong
+  not_a_model,         ///< the bytes are no recognizer's, or no features', whichever was asked for
+  other_version,       ///< the file was written by a version with another format
+  other_descriptor,    ///< descriptors of another layout than the recognizer or the file has
+  damaged_model,       ///< the file is truncated, or its checksum or contents are wrong
   no_file,             ///< a file cannot be read or written
   missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
   unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
@@ -282,10 +218,10 @@ inline namespace SHORTSHOT_CODE {
     case Status::too_few_pairs: return "a pose takes three correspondences or more";
     case Status::no_pose: return "no rigid motion fits three correspondences or more";
     case Status::not_trained: return "the recognizer has no training view";
-    case Status::not_a_model: return "not a recognizer's model";
-    case Status::other_version: return "the model's format is of another version";
-    case Status::other_descriptor: return "the model was trained with another descriptor";
-    case Status::damaged_model: return "the model is damaged";
+    case Status::not_a_model: return "not a file of this kind";
+    case Status::other_version: return "the file's format is of another version";
+    case Status::other_descriptor: return "the file or the recognizer is of another descriptor";
+    case Status::damaged_model: return "the file is damaged";
     case Status::no_file: return "the file cannot be read or written";
     case Status::missing_intensities: return "the descriptor needs intensities and there are none";
     case Status::unsure_frame: return "other key points have surer frames";
@@ -5247,7 +5183,8 @@ inline namespace SHORTSHOT_CODE {
 
 /// Can this cloud be described by D with this search and support? All that can be said before the first key point.
 template <class D, class Search>
-[[nodiscard, gnu::always_inline]] inline Status validate(const CloudView& cloud, const Search& search, const Support& support) noexcept {
+[[nodiscard, gnu::always_inline]] inline Status validate(const CloudView& cloud, const Search& search,
+                                                         const Support& support) noexcept {
   Status status = detail::validate_search(cloud, search);
   if (status == Status::ok) status = validate(support.radius);
   if (status == Status::ok) status = validate(support.frame_radius);
@@ -5336,9 +5273,10 @@ template <class D, class Place>
 
 /// Everything up to the gathered neighborhood; finish(neighborhood, sources, position) makes the descriptor of it.
 template <class D, class Search, class Place, class Memory, class Finish, class... Own>
-[[nodiscard, gnu::always_inline]] inline Status describe_key(const CloudView& cloud, const Search& search, const Place& place,
-                                         const Support& support, Memory& workspace, float* out, const Finish& finish,
-                                         const Own&... own) noexcept {
+[[nodiscard, gnu::always_inline]] inline Status describe_key(const CloudView& cloud, const Search& search,
+                                                             const Place& place, const Support& support,
+                                                             Memory& workspace, float* out, const Finish& finish,
+                                                             const Own&... own) noexcept {
   std::memset(out, 0, D::size_bytes);
   KeyPoint key;
   Status status = validate<D>(cloud, search, support);
@@ -5376,9 +5314,9 @@ inline namespace SHORTSHOT_CODE {
 /// reentrant, one workspace per thread.
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place = KeyPoint, class Memory,
           class... Own>
-[[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
-                                        const Support& support, Memory& workspace, float* out,
-                                        const Own&... own) noexcept {
+[[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search,
+                                                            const Place& place, const Support& support,
+                                                            Memory& workspace, float* out, const Own&... own) noexcept {
   return detail::describe_key<D>(
       cloud, search, place, support, workspace, out,
       [&](const auto& n, const auto& sources, const Point& position) __attribute__((always_inline)) {
@@ -5391,14 +5329,13 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, c
 /// The same in a frame that the caller knows; bad_frame if it is not orthonormal.
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place = KeyPoint, class Memory,
           class... Own>
-[[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
-                                        const Frame& frame, Radius radius, Memory& workspace, float* out,
-                                        const Own&... own) noexcept {
+[[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search,
+                                                            const Place& place, const Frame& frame, Radius radius,
+                                                            Memory& workspace, float* out, const Own&... own) noexcept {
   return detail::describe_key<D>(
       cloud, search, place, radius, workspace, out,
-      [&](const auto& n, const auto& sources, const Point&) __attribute__((always_inline)) {
-        return describe<D, ChunkSize>(n, sources, frame, radius, out);
-      },
+      [&](const auto& n, const auto& sources, const Point&)
+          __attribute__((always_inline)) { return describe<D, ChunkSize>(n, sources, frame, radius, out); },
       own...);
 }
 
@@ -5886,7 +5823,7 @@ class Grid {
 
   template <class Neighbors>
   [[nodiscard, gnu::always_inline]] Status gather(const Contents& contents, const Point& center, Radius radius,
-                              Neighbors& out) const noexcept {
+                                                  Neighbors& out) const noexcept {
     clear(out, center);
     if (status() != Status::ok) return status();
     if (!is_finite(center)) return Status::ok;
@@ -6651,6 +6588,72 @@ template <class D>
 #endif  // SHORTSHOT_STORE_QUANTIZE_HPP
 #endif  // SHORTSHOT_KERNEL_HPP
 
+// shortshot/macros_off.hpp: macros of other headers that are words here (X11, Windows, Arduino, Apple), set aside until
+// macros_on.hpp puts them back. No include guard: the umbrella includes both as often as it is included.
+
+#pragma push_macro("abs")
+#undef abs
+#pragma push_macro("round")
+#undef round
+#pragma push_macro("min")
+#undef min
+#pragma push_macro("max")
+#undef max
+#pragma push_macro("near")
+#undef near
+#pragma push_macro("far")
+#undef far
+#pragma push_macro("small")
+#undef small
+#pragma push_macro("check")
+#undef check
+#pragma push_macro("require")
+#undef require
+#pragma push_macro("verify")
+#undef verify
+#pragma push_macro("Status")
+#undef Status
+#pragma push_macro("Success")
+#undef Success
+#pragma push_macro("None")
+#undef None
+#pragma push_macro("Always")
+#undef Always
+#pragma push_macro("Bool")
+#undef Bool
+#pragma push_macro("True")
+#undef True
+#pragma push_macro("False")
+#undef False
+#pragma push_macro("Complex")
+#undef Complex
+#pragma push_macro("constrain")
+#undef constrain
+#pragma push_macro("radians")
+#undef radians
+#pragma push_macro("degrees")
+#undef degrees
+#pragma push_macro("sq")
+#undef sq
+#pragma push_macro("bit")
+#undef bit
+#pragma push_macro("word")
+#undef word
+#pragma push_macro("PI")
+#undef PI
+#pragma push_macro("DEFAULT")
+#undef DEFAULT
+#pragma push_macro("ERROR")
+#undef ERROR
+#pragma push_macro("OPTIONAL")
+#undef OPTIONAL
+#pragma push_macro("IN")
+#undef IN
+#pragma push_macro("OUT")
+#undef OUT
+#pragma push_macro("I")
+#undef I
+
 #if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
 
 // shortshot/batch/describe_cloud.hpp: a whole cloud in one call: key points, search, frames, descriptors. Hosted only:
@@ -7131,8 +7134,6 @@ class Extractor {
 #ifndef SHORTSHOT_BATCH_KEEP_BEST_FRAMES_HPP
 #define SHORTSHOT_BATCH_KEEP_BEST_FRAMES_HPP
 
-#include <cmath>
-
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
@@ -7153,7 +7154,7 @@ template <class D>
   for (std::size_t row = 0; row < features.size(); ++row) {
     if (features.status[row] == Status::ok) rows.push_back(static_cast<std::uint32_t>(row));
   }
-  const float wanted = std::round(share * static_cast<float>(rows.size()));
+  const float wanted = __builtin_roundf(share * static_cast<float>(rows.size()));
   const auto kept = std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
   if (share == 1.0f || kept >= rows.size()) return Status::ok;
   const auto end = rows.begin() + static_cast<std::ptrdiff_t>(kept);
@@ -7176,8 +7177,6 @@ template <class D>
 // shortshot/batch/keypoints.hpp: uniform key points, one per occupied voxel. Hosted only: allocates.
 #ifndef SHORTSHOT_BATCH_KEYPOINTS_HPP
 #define SHORTSHOT_BATCH_KEYPOINTS_HPP
-
-#include <tuple>
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -7207,7 +7206,7 @@ struct VoxelMember {
     float from_center[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float position = coordinate(p, axis) / leaf;
-      member.voxel[axis] = std::floor(position);
+      member.voxel[axis] = __builtin_floorf(position);
       member.place[axis] = position - member.voxel[axis];
       from_center[axis] = member.place[axis] - 0.5f;
     }
@@ -7216,9 +7215,12 @@ struct VoxelMember {
     members.push_back(member);
   });
   if (members.empty()) return Status::empty_cloud;
-  const auto key = [](const VoxelMember& m) { return std::tie(m.voxel[2], m.voxel[1], m.voxel[0], m.d2, m.index); };
-  std::sort(members.begin(), members.end(),
-            [&](const VoxelMember& a, const VoxelMember& b) { return key(a) < key(b); });
+  std::sort(members.begin(), members.end(), [](const VoxelMember& a, const VoxelMember& b) {
+    for (std::size_t axis = 3; axis-- > 0;) {
+      if (a.voxel[axis] != b.voxel[axis]) return a.voxel[axis] < b.voxel[axis];
+    }
+    return a.d2 != b.d2 ? a.d2 < b.d2 : a.index < b.index;
+  });
   return Status::ok;
 }
 
@@ -7796,16 +7798,23 @@ template <class D>
 }  // namespace shortshot
 #endif  // SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
 
-// shortshot/recognition/match.hpp: the nearest descriptors of another set, exactly, and pairs that are each other's
-// nearest. Hosted only: allocates, starts threads.
-//
-// |a - b|^2 = |a|^2 + |b|^2 - 2 ab makes of all distances one matrix product, 1.4 (SSE2) to 1.7 (AVX2) times as fast as
-// squared differences blocked in the same way, but cancellation costs it digits where rows are close. So the product
-// only rules out: where, by a bound on its rounding, a row may be nearer than the best so far, the distance is computed
-// again as a sum of squared differences, and that decides. In rows of no particular order that is so for about
-// log(count) rows of each query.
+// shortshot/recognition/match.hpp: the nearest descriptors of another set, exactly; pairs that are each other's
+// nearest; and those that are nearer than all others by far. Hosted only: allocates, starts threads.
 #ifndef SHORTSHOT_RECOGNITION_MATCH_HPP
 #define SHORTSHOT_RECOGNITION_MATCH_HPP
+
+// shortshot/recognition/compare_rows.hpp: which pairs of rows may be near each other, for match.hpp. Hosted only:
+// allocates, starts threads.
+//
+// |a - b|^2 = |a|^2 + |b|^2 - 2 ab makes of all distances of floats one matrix product, 1.4 (SSE2) to 1.7 (AVX2) times
+// as fast as squared differences blocked in the same way, but cancellation costs it digits where rows are close. So the
+// product only rules out: where, by a bound on its rounding, a row may be nearer than the best so far, the distance is
+// computed again as a sum of squared differences, and that decides. In rows of no particular order that is so for about
+// log(count) rows of each query.
+//
+// Of rows in any other format every pair is compared.
+#ifndef SHORTSHOT_RECOGNITION_COMPARE_ROWS_HPP
+#define SHORTSHOT_RECOGNITION_COMPARE_ROWS_HPP
 
 // shortshot/recognition/descriptor_rows.hpp: borrowed rows of descriptors, as matching and recognition take them.
 // Hosted only.
@@ -7862,13 +7871,57 @@ template <class D>
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-[[nodiscard]] inline bool is_ok(const DescriptorRows& rows, std::size_t row) noexcept {
+template <class Rows>
+[[nodiscard]] bool is_ok(const Rows& rows, std::size_t row) noexcept {
   return rows.status == nullptr || rows.status[row] == Status::ok;
 }
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_RECOGNITION_DESCRIPTOR_ROWS_HPP
+
+// shortshot/recognition/l2_distance.hpp: the distance of two rows of floats, with the same bits on every machine.
+#ifndef SHORTSHOT_RECOGNITION_L2_DISTANCE_HPP
+#define SHORTSHOT_RECOGNITION_L2_DISTANCE_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// The sum of (a[i] - b[i])^2 for two rows of `size` floats. In eight sums, whatever the number of lanes, for the same
+/// bits on every machine: sum k has values k, k + 8, ...; then ((0 + 4) + (2 + 6)) + ((1 + 5) + (3 + 7)). 0 for a size
+/// of 0. No allocation, no error, reentrant; NaN and infinity go through.
+[[nodiscard]] inline float squared_l2_distance(const float* a, const float* b, std::size_t size) noexcept {
+  namespace simd = extend::simd;
+  constexpr std::size_t width = 8;
+  static_assert(width % simd::lanes == 0, "whole registers");
+  simd::F32 lanes[width / simd::lanes] = {};
+  const auto add = [&lanes](const float* x, const float* y) {
+    for (std::size_t k = 0; k < width; k += simd::lanes) {
+      const simd::F32 difference = simd::load(x + k) - simd::load(y + k);
+      lanes[k / simd::lanes] = lanes[k / simd::lanes] + difference * difference;
+    }
+  };
+  const std::size_t whole = size - size % width;
+  for (std::size_t i = 0; i < whole; i += width) add(a + i, b + i);
+  float rest[2][width] = {};
+  for (std::size_t i = whole; i < size; ++i) {
+    rest[0][i - whole] = a[i];
+    rest[1][i - whole] = b[i];
+  }
+  add(rest[0], rest[1]);
+  float sums[width];
+  for (std::size_t k = 0; k < width; k += simd::lanes) simd::store(sums + k, lanes[k / simd::lanes]);
+  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+}
+
+/// The L2 distance, which is Match::distance for rows of floats: the root of it, exactly rounded.
+[[nodiscard]] inline float l2_distance(const float* a, const float* b, std::size_t size) noexcept {
+  return extend::simd::sqrt(squared_l2_distance(a, b, size));
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_RECOGNITION_L2_DISTANCE_HPP
 
 // shortshot/recognition/products.hpp: products of the rows of one matrix with those of another, for match.hpp.
 //
@@ -7927,27 +7980,98 @@ struct PanelProducts {
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_RECOGNITION_PRODUCTS_HPP
 
-namespace shortshot {
+// shortshot/recognition/row_format.hpp: what rows of descriptors must have to be matched: for who stores them in a
+// format of their own.
+#ifndef SHORTSHOT_RECOGNITION_ROW_FORMAT_HPP
+#define SHORTSHOT_RECOGNITION_ROW_FORMAT_HPP
+
+namespace shortshot::detail {
 inline namespace SHORTSHOT_TYPES {
 
-/// In place of a row's number where there is none.
-inline constexpr std::uint32_t no_row = 0xFFFFFFFFu;
+template <class Rows, class = void>
+struct HasCount : std::false_type {};
+template <class Rows>
+struct HasCount<Rows, std::void_t<decltype(static_cast<std::size_t>(std::declval<const Rows&>().count))>>
+    : std::true_type {};
 
-/// A row of the database and its distance (L2) from the query.
-struct Match {
-  std::uint32_t row;
-  float distance;
+template <class Rows, class = void>
+struct HasStatus : std::false_type {};
+template <class Rows>
+struct HasStatus<Rows, std::void_t<decltype(std::declval<const Rows&>().status)>>
+    : std::is_convertible<decltype(std::declval<const Rows&>().status), const Status*> {};
+
+template <class Rows, class = void>
+struct HasFits : std::false_type {};
+template <class Rows>
+struct HasFits<Rows, std::void_t<decltype(std::declval<const Rows&>().fits(std::declval<const Rows&>()))>>
+    : std::is_convertible<decltype(std::declval<const Rows&>().fits(std::declval<const Rows&>())), bool> {};
+
+template <class Rows, class = void>
+struct RowsNumber {
+  using type = void;
+};
+template <class Rows>
+struct RowsNumber<Rows, std::void_t<decltype(std::declval<const Rows&>().compare(
+                            std::size_t{}, std::declval<const Rows&>(), std::size_t{}))>> {
+  using type = decltype(std::declval<const Rows&>().compare(std::size_t{}, std::declval<const Rows&>(), std::size_t{}));
 };
 
-/// A row of each of two sets, and their distance (L2).
-struct MatchedPair {
-  std::uint32_t source;
-  std::uint32_t target;
-  float distance;
-};
+template <class Rows, class = void>
+struct HasDistance : std::false_type {};
+template <class Rows>
+struct HasDistance<
+    Rows, std::void_t<decltype(std::declval<const Rows&>().distance(std::declval<typename RowsNumber<Rows>::type>()))>>
+    : std::is_convertible<
+          decltype(std::declval<const Rows&>().distance(std::declval<typename RowsNumber<Rows>::type>())), float> {};
 
 }  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot
+}  // namespace shortshot::detail
+
+namespace shortshot::extend {
+inline namespace SHORTSHOT_TYPES {
+
+/// Can Rows be given to nearest(), reciprocal_correspondences() and ratio_correspondences()? They take whatever has
+///
+///     struct Rows {  // borrowed: copied, and asked by several threads at the same time
+///       std::size_t count;                   // how many there are
+///       const shortshot::Status* status;     // one per row: those that are not ok are left out; null: all are ok
+///       bool fits(const Rows& other) const;  // can they be compared? bad_rows if not
+///       Number compare(std::size_t row, const Rows& other, std::size_t others_row) const;
+///       float distance(Number compared) const;  // what Match::distance says of it
+///     };
+///
+/// compare() gives an integer or a float that is the larger the farther away: a sum of squares saves the root of each
+/// pair. It is less than the largest one of its type; a row for which it is that, or NaN, is nobody's match. ByteRows
+/// and BitRows are made like that, and rows of floats (DescriptorRows) compared faster, by matrix products.
+template <class Rows>
+inline constexpr bool is_row_format =
+    std::conjunction<detail::HasCount<Rows>, detail::HasStatus<Rows>, detail::HasFits<Rows>,
+                     std::is_arithmetic<typename detail::RowsNumber<Rows>::type>, detail::HasDistance<Rows>>::value;
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::extend
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Says what is missing.
+template <class Rows>
+constexpr void require_row_format() noexcept {
+  static_assert(HasCount<Rows>::value, "matching supports rows with `std::size_t count`: see extend::is_row_format");
+  static_assert(HasStatus<Rows>::value,
+                "matching supports rows with `const Status* status`: see extend::is_row_format");
+  static_assert(HasFits<Rows>::value,
+                "matching supports rows with `bool fits(const Rows& other) const`: see extend::is_row_format");
+  static_assert(std::is_arithmetic<typename RowsNumber<Rows>::type>::value,
+                "matching supports rows with `Number compare(std::size_t row, const Rows& other, std::size_t "
+                "others_row) const`, an integer or a float: see extend::is_row_format");
+  static_assert(!std::is_arithmetic<typename RowsNumber<Rows>::type>::value || HasDistance<Rows>::value,
+                "matching supports rows with `float distance(Number compared) const`: see extend::is_row_format");
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_ROW_FORMAT_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -7958,39 +8082,27 @@ inline constexpr std::size_t query_block = 128;
 inline constexpr std::size_t row_block = 96;
 static_assert(query_block % panel_rows == 0 && row_block % tile_rows == 0, "whole tiles");
 
+/// A match before what was compared became a distance.
+template <class Number>
+struct Candidate {
+  std::uint32_t row;
+  Number compared;
+};
+
 /// More than twice any squared distance; finite, so that nothing here depends on how infinities compare.
 inline constexpr float out_of_reach = std::numeric_limits<float>::max();
 
-/// In eight sums, whatever the number of lanes, for the same bits on every machine.
-[[nodiscard]] inline float squared_distance(const float* a, const float* b, std::size_t size) noexcept {
-  constexpr std::size_t width = 8;
-  static_assert(width % simd::lanes == 0, "whole registers");
-  simd::F32 lanes[width / simd::lanes] = {};
-  const auto add = [&lanes](const float* x, const float* y) {
-    for (std::size_t k = 0; k < width; k += simd::lanes) {
-      const simd::F32 difference = simd::load(x + k) - simd::load(y + k);
-      lanes[k / simd::lanes] = lanes[k / simd::lanes] + difference * difference;
-    }
-  };
-  const std::size_t whole = size - size % width;
-  for (std::size_t i = 0; i < whole; i += width) add(a + i, b + i);
-  float rest[2][width] = {};
-  std::copy(a + whole, a + size, rest[0]);
-  std::copy(b + whole, b + size, rest[1]);
-  add(rest[0], rest[1]);
-  float sums[width];
-  for (std::size_t k = 0; k < width; k += simd::lanes) simd::store(sums + k, lanes[k / simd::lanes]);
-  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
-}
-
 /// Rows with half of their squared norms, each less its share of the rounding: half_norm(a) + half_norm(b) - (the
-/// product ab) is not above half of squared_distance(a, b), in whatever order the product was summed up.
+/// product ab) is not above half of squared_l2_distance(a, b), in whatever order the product was summed up.
 ///
 /// A sum of n products errs by n 2^-24 |a| |b| at most (to first order), hence the two norms and twice the product
-/// together by 2 n 2^-24 (|a|^2 + |b|^2), and squared_distance(), which is not above 2 (|a|^2 + |b|^2), by as much
+/// together by 2 n 2^-24 (|a|^2 + |b|^2), and squared_l2_distance(), which is not above 2 (|a|^2 + |b|^2), by as much
 /// again. 5 instead of 4 makes up for higher orders, 16 for the few other operations, min() for squares that underflow.
 class ComparedRows {
  public:
+  using Number = float;
+  static constexpr Number farthest = out_of_reach;
+
   explicit ComparedRows(const DescriptorRows& rows)
       : rows_(rows), origin_(rows.size), half_norms_(whole_panels(rows.count), out_of_reach) {
     const auto size = static_cast<float>(rows.size);
@@ -7998,7 +8110,7 @@ class ComparedRows {
     const float underflow = size * std::numeric_limits<float>::min();
     for (std::size_t i = 0; i < rows.count; ++i) {
       if (!is_ok(rows, i)) continue;
-      const float norm = squared_distance(at(i), origin_.data(), rows.size);
+      const float norm = squared_l2_distance(at(i), origin_.data(), rows.size);
       if (math::is_finite(8.0f * norm)) half_norms_[i] = unfused(0.5f * kept * norm) - underflow;
     }
   }
@@ -8011,9 +8123,8 @@ class ComparedRows {
   [[nodiscard]] std::size_t size() const noexcept { return rows_.size; }
   [[nodiscard]] const float* half_norm(std::size_t row) const noexcept { return half_norms_.data() + row; }
   [[nodiscard]] bool takes_part(std::size_t row) const noexcept { return half_norms_[row] < out_of_reach; }
-  [[nodiscard]] float squared_distance_to(const ComparedRows& other, std::size_t row,
-                                          std::size_t others_row) const noexcept {
-    return squared_distance(at(row), other.at(others_row), rows_.size);
+  [[nodiscard]] float compare(std::size_t row, const ComparedRows& other, std::size_t others_row) const noexcept {
+    return squared_l2_distance(at(row), other.at(others_row), rows_.size);
   }
 
   /// Zeros for rows that take no part.
@@ -8036,13 +8147,6 @@ class ComparedRows {
   std::vector<float> origin_;
   std::vector<float> half_norms_;
 };
-
-/// ok or bad_rows.
-[[nodiscard]] inline Status check_comparable(const DescriptorRows& a, const DescriptorRows& b) noexcept {
-  const bool numbered = a.count < no_row && b.count < no_row;
-  return validate(a) == Status::ok && validate(b) == Status::ok && a.size == b.size && numbered ? Status::ok
-                                                                                                : Status::bad_rows;
-}
 
 /// Shares blocks of queries among threads. compare(thread, first, row, products) is called for panels of queries, from
 /// `first` on, with their products with a row of the database that takes part; one thread gets queries in ascending
@@ -8091,21 +8195,317 @@ void for_candidates(const ComparedRows& queries, std::size_t first, float half_n
   }
 }
 
-/// Puts a match that is nearer than the last of k, which are in ascending order, behind those that are as near.
-inline void insert(Match* best, std::size_t k, const Match& match) noexcept {
-  std::size_t at = k - 1;
-  for (; at > 0 && match.distance < best[at - 1].distance; --at) best[at] = best[at - 1];
-  best[at] = match;
+/// What of each query's best so far its products are compared with.
+class QueryLimits {
+ public:
+  explicit QueryLimits(const ComparedRows& queries)
+      : halves_(ComparedRows::whole_panels(queries.count()), 0.5f * out_of_reach) {}
+  void set(std::size_t query, float squared_distance) noexcept { halves_[query] = 0.5f * squared_distance; }
+  [[nodiscard]] simd::F32 halves(std::size_t query) const noexcept { return simd::load(halves_.data() + query); }
+
+ private:
+  std::vector<float> halves_;
+};
+
+/// Of the products that for_products() calls it with, those of pairs that may be near: nearer than `limits` has for the
+/// query, or what `best_of_rows` (null: nothing) has for the row. One type for all that is done with them, because they
+/// are few, and what is around them takes a compiler its time.
+struct NearPairs {
+  const ComparedRows& queries;
+  const ComparedRows& database;
+  const QueryLimits& limits;
+  const Candidate<float>* best_of_rows;  // as many for each thread as there are rows
+  void (*consider)(const void* considering, std::size_t thread, std::size_t query, std::size_t row);
+  const void* considering;
+
+  void operator()(std::size_t thread, std::size_t first, std::size_t row, const PanelProducts& products) const {
+    const float of_row = best_of_rows != nullptr ? best_of_rows[thread * database.count() + row].compared : 0.0f;
+    const simd::F32 half_of_row = simd::all(0.5f * of_row);
+    const auto halves = [&](std::size_t query) { return simd::max(limits.halves(query), half_of_row); };
+    for_candidates(queries, first, *database.half_norm(row), products, halves,
+                   [&](std::size_t query) { consider(considering, thread, query, row); });
+  }
+};
+
+/// Calls consider(thread, query, row) for all pairs that take part and are nearer than the best so far, of the query or
+/// (if there is one) of the row, and for others; in the order of for_products().
+template <class Executor, class Consider>
+void for_near(Executor& executor, std::size_t team, const ComparedRows& queries, const ComparedRows& database,
+              const QueryLimits& limits, const Candidate<float>* best_of_rows, const Consider& consider) {
+  const auto call = [](const void* considering, std::size_t thread, std::size_t query, std::size_t row) {
+    (*static_cast<const Consider*>(considering))(thread, query, row);
+  };
+  for_products(executor, team, queries, database, NearPairs{queries, database, limits, best_of_rows, call, &consider});
 }
 
-/// The nearest match of each of `count` rows, among those that all threads have seen, to where the first one's is.
-inline void merge(std::vector<Match>& seen, std::size_t count) noexcept {
-  for (std::size_t i = count; i < seen.size(); ++i) {
-    const Match& match = seen[i];
-    Match& best = seen[i % count];
-    const bool nearer = match.distance < best.distance;
-    if (nearer || (match.distance == best.distance && match.row < best.row)) best = match;
+/// Rows in any format, with the same functions.
+template <class Rows>
+class AnyRows {
+ public:
+  using Number = typename RowsNumber<Rows>::type;
+  static constexpr Number farthest = std::numeric_limits<Number>::max();
+
+  explicit AnyRows(const Rows& rows) noexcept : rows_(rows) {}
+  [[nodiscard]] std::size_t count() const noexcept { return rows_.count; }
+  [[nodiscard]] bool takes_part(std::size_t row) const noexcept { return is_ok(rows_, row); }
+  [[nodiscard]] Number compare(std::size_t row, const AnyRows& other, std::size_t others_row) const {
+    return rows_.compare(row, other.rows_, others_row);
   }
+
+ private:
+  const Rows& rows_;
+};
+
+struct NoLimits {
+  template <class Rows>
+  explicit NoLimits(const AnyRows<Rows>&) noexcept {}
+  template <class Number>
+  void set(std::size_t, Number) noexcept {}
+};
+
+template <class Executor, class Rows, class Consider>
+void for_near(Executor& executor, std::size_t team, const AnyRows<Rows>& queries, const AnyRows<Rows>& database,
+              const NoLimits&, const Candidate<typename AnyRows<Rows>::Number>*, const Consider& consider) {
+  const auto compare_block = [&](std::size_t thread, std::size_t begin, std::size_t end) {
+    for (std::size_t first = 0; first < database.count(); first += row_block) {
+      const std::size_t last = std::min(first + row_block, database.count());
+      for (std::size_t query = begin; query < end; ++query) {
+        if (!queries.takes_part(query)) continue;
+        for (std::size_t row = first; row < last; ++row) {
+          if (database.takes_part(row)) consider(thread, query, row);
+        }
+      }
+    }
+  };
+  for_blocks(executor, team, queries.count(), query_block, compare_block);
+}
+
+/// How rows of a format are compared.
+template <class Rows>
+struct Comparison {
+  using Compared = AnyRows<Rows>;
+  using Limits = NoLimits;
+  [[nodiscard]] static bool fit(const Rows& a, const Rows& b) { return a.fits(b); }
+  template <class Number>
+  [[nodiscard]] static float distance(const Rows& rows, Number compared) {
+    return rows.distance(compared);
+  }
+};
+template <>
+struct Comparison<DescriptorRows> {
+  using Compared = ComparedRows;
+  using Limits = QueryLimits;
+  [[nodiscard]] static bool fit(const DescriptorRows& a, const DescriptorRows& b) noexcept {
+    return validate(a) == Status::ok && validate(b) == Status::ok && a.size == b.size;
+  }
+  [[nodiscard]] static float distance(const DescriptorRows&, float compared) noexcept { return simd::sqrt(compared); }
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_COMPARE_ROWS_HPP
+
+// shortshot/recognition/packed_rows.hpp: borrowed rows of bytes and of bits, which are matched as rows of floats are.
+// Hosted only.
+//
+// Their distances are integers before they become Match::distance, hence the same on every machine, and ties are
+// exactly that.
+#ifndef SHORTSHOT_RECOGNITION_PACKED_ROWS_HPP
+#define SHORTSHOT_RECOGNITION_PACKED_ROWS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// For up to 66051 bytes. In pieces of a fixed length, which compilers turn into lanes at -O2, too.
+[[nodiscard]] inline std::uint32_t squared_byte_distance(const std::uint8_t* a, const std::uint8_t* b,
+                                                         std::size_t size) noexcept {
+  constexpr std::size_t width = 32;
+  std::uint32_t sum = 0;
+  std::size_t i = 0;
+  for (; i + width <= size; i += width) {
+    std::int32_t part = 0;
+    for (std::size_t k = 0; k < width; ++k) {
+      const auto difference = static_cast<std::int16_t>(a[i + k] - b[i + k]);
+      part += difference * difference;
+    }
+    sum += static_cast<std::uint32_t>(part);
+  }
+  for (; i < size; ++i) {
+    const std::int32_t difference = std::int32_t{a[i]} - std::int32_t{b[i]};
+    sum += static_cast<std::uint32_t>(difference * difference);
+  }
+  return sum;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// `count` descriptors of `size` bytes each (1 to 66051), row by row without gaps, as quantize() makes them. Borrowed.
+/// Their distance is the L2 distance of the descriptors, ByteDescriptor's step times the root of the sum of squares.
+struct ByteRows {
+  static constexpr float step = 1.0f / 512.0f;  ///< that of ByteDescriptor<D>, whatever D
+
+  const std::uint8_t* values;  ///< count * size
+  std::size_t count;           ///< number of rows
+  std::size_t size;            ///< bytes in a row
+  const Status* status;        ///< one per row: those that are not ok are left out; null: all are ok
+
+  [[nodiscard, gnu::always_inline]] bool fits(const ByteRows& other) const noexcept {
+    return size == other.size && size > 0 && size <= 66051 && (count == 0 || values != nullptr) &&
+           (other.count == 0 || other.values != nullptr);
+  }
+  /// The squared distance of the bytes.
+  [[nodiscard, gnu::always_inline]] std::uint32_t compare(std::size_t row, const ByteRows& other,
+                                                          std::size_t others_row) const noexcept {
+    return detail::squared_byte_distance(values + row * size, other.values + others_row * size, size);
+  }
+  [[nodiscard, gnu::always_inline]] float distance(std::uint32_t compared) const noexcept {
+    return step * extend::simd::sqrt(static_cast<float>(compared));
+  }
+};
+
+/// `count` descriptors of `size` bytes of bits each (1 to 66051), row by row without gaps, as binarize() makes them.
+/// Borrowed. Their distance is the number of bits in which they differ (Hamming).
+struct BitRows {
+  const std::uint8_t* bytes;  ///< count * size
+  std::size_t count;          ///< number of rows
+  std::size_t size;           ///< bytes in a row
+  const Status* status;       ///< one per row: those that are not ok are left out; null: all are ok
+
+  [[nodiscard, gnu::always_inline]] bool fits(const BitRows& other) const noexcept {
+    return size == other.size && size > 0 && size <= 66051 && (count == 0 || bytes != nullptr) &&
+           (other.count == 0 || other.bytes != nullptr);
+  }
+  [[nodiscard, gnu::always_inline]] std::uint32_t compare(std::size_t row, const BitRows& other,
+                                                          std::size_t others_row) const noexcept {
+    return static_cast<std::uint32_t>(hamming_distance(bytes + row * size, other.bytes + others_row * size, size));
+  }
+  [[nodiscard, gnu::always_inline]] float distance(std::uint32_t compared) const noexcept {
+    return static_cast<float>(compared);
+  }
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// Descriptors as bytes, or as bits, which must outlive the rows. `status` has one for each, as Features::status of
+/// what they were made from: rows that are not ok hold zeros, which should not match. Null: all are ok.
+template <class D>
+[[nodiscard]] ByteRows rows_of(const std::vector<ByteDescriptor<D>>& descriptors,
+                               const Status* status = nullptr) noexcept {
+  static_assert(sizeof(ByteDescriptor<D>) == ByteDescriptor<D>::size_bytes, "rows without gaps");
+  static_assert(ByteDescriptor<D>::step == ByteRows::step, "distances in the units of the descriptor");
+  return {reinterpret_cast<const std::uint8_t*>(descriptors.data()), descriptors.size(), ByteDescriptor<D>::size_bytes,
+          status};
+}
+template <class D, int Group>
+[[nodiscard]] BitRows rows_of(const std::vector<BinaryDescriptor<D, Group>>& descriptors,
+                              const Status* status = nullptr) noexcept {
+  using Bits = BinaryDescriptor<D, Group>;
+  static_assert(sizeof(Bits) == Bits::size_bytes, "rows without gaps");
+  return {reinterpret_cast<const std::uint8_t*>(descriptors.data()), descriptors.size(), Bits::size_bytes, status};
+}
+
+/// ok or bad_rows, as for rows of floats.
+[[nodiscard]] inline Status validate(const ByteRows& rows) noexcept {
+  return rows.fits(rows) ? Status::ok : Status::bad_rows;
+}
+[[nodiscard]] inline Status validate(const BitRows& rows) noexcept {
+  return rows.fits(rows) ? Status::ok : Status::bad_rows;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_RECOGNITION_PACKED_ROWS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// In place of a row's number where there is none.
+inline constexpr std::uint32_t no_row = 0xFFFFFFFFu;
+
+/// A row of the database and its distance from the query.
+struct Match {
+  std::uint32_t row;
+  float distance;
+};
+
+/// A row of each of two sets, and their distance.
+struct MatchedPair {
+  std::uint32_t source;
+  std::uint32_t target;
+  float distance;
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+template <class Rows, class Number>
+[[nodiscard]] float distance_of(const Rows& rows, const Candidate<Number>& candidate) {
+  if (candidate.row == no_row) return std::numeric_limits<float>::infinity();
+  return Comparison<Rows>::distance(rows, candidate.compared);
+}
+
+/// ok or bad_rows.
+template <class Rows>
+[[nodiscard]] Status check_comparable(const Rows& a, const Rows& b) {
+  if constexpr (!std::is_same<Rows, DescriptorRows>::value) require_row_format<Rows>();
+  const bool numbered = a.count < no_row && b.count < no_row;
+  return numbered && Comparison<Rows>::fit(a, b) ? Status::ok : Status::bad_rows;
+}
+
+template <class Executor>
+[[nodiscard]] std::size_t team_of(const Executor& executor) {
+  return std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
+}
+
+/// Blocks of queries, of which there are `count`.
+[[nodiscard]] inline std::size_t query_blocks(std::size_t count) noexcept {
+  return (count + query_block - 1) / query_block;
+}
+
+/// Puts a candidate that is nearer than the last of k, which are in ascending order, behind those that are as near.
+template <class Number>
+void insert(Candidate<Number>* best, std::size_t k, const Candidate<Number>& candidate) noexcept {
+  std::size_t at = k - 1;
+  for (; at > 0 && candidate.compared < best[at - 1].compared; --at) best[at] = best[at - 1];
+  best[at] = candidate;
+}
+
+/// The nearest candidate of each of `count` rows, among those that all threads have seen, to where the first one's is.
+template <class Number>
+void merge(std::vector<Candidate<Number>>& seen, std::size_t count) noexcept {
+  for (std::size_t i = count; i < seen.size(); ++i) {
+    const Candidate<Number>& candidate = seen[i];
+    Candidate<Number>& best = seen[i % count];
+    const bool nearer = candidate.compared < best.compared;
+    if (nearer || (candidate.compared == best.compared && candidate.row < best.row)) best = candidate;
+  }
+}
+
+/// k for each query, nearest first; no_row where there is none.
+template <class Rows, class Executor>
+[[nodiscard]] auto nearest_candidates(const Rows& queries, const Rows& database, std::size_t k, Executor& executor) {
+  using Compared = typename Comparison<Rows>::Compared;
+  using Number = typename Compared::Number;
+  const Compared from(queries);
+  const Compared to(database);
+  typename Comparison<Rows>::Limits limits(from);
+  std::vector<Candidate<Number>> best(queries.count * k, {no_row, Compared::farthest});
+  for_near(executor, team_of(executor), from, to, limits, nullptr, [&](std::size_t, std::size_t q, std::size_t row) {
+    Candidate<Number>* const of_query = best.data() + q * k;
+    const Number compared = from.compare(q, to, row);
+    if (!(compared < of_query[k - 1].compared)) return;
+    insert(of_query, k, {static_cast<std::uint32_t>(row), compared});
+    limits.set(q, of_query[k - 1].compared);
+  });
+  return best;
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -8115,92 +8515,107 @@ namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
 /// The k nearest rows of the database for each query, nearest first; of rows at the same distance the first ones come
-/// first. Exact: as if all distances were computed as sums of squared differences in float, in a fixed order.
+/// first. Exact: as if all distances were computed.
 ///
+/// `queries`, `database`  DescriptorRows, ByteRows or BitRows (see rows_of()), or rows in a format of your own
+///            (extend::is_row_format). Distances are L2 for floats (sums of squared differences in float, in a fixed
+///            order: l2_distance()) and for bytes, Hamming for bits
 /// `k`        from 1 on; meant to be small (an insertion costs O(k))
 /// `out`      queries.count * k: those of query i from out[i * k] on. {no_row, infinity} where the database has too few
-///            rows that take part, or where the query does not. A row takes part if its status is ok and its squared
-///            norm is finite and below 4e37
+///            rows that take part, or where the query does not. A row takes part if its status is ok; one of floats, if
+///            its squared norm is finite and below 4e37 besides
 /// `threads`  how many threads share the work, or an executor (see extract()); the result is the same, bit for bit, for
 ///            any number, and on every machine
 ///
 /// Statuses: bad_rows (null pointers, rows of different or no length, 2^32 - 1 rows or more), bad_option (k, or more
-/// results than memory has room for); `out` is empty then. O(queries.count * database.count * size), at the speed of
-/// Eigen's matrix product; a database in the order of falling distances, or of copies, costs a sum of squared
-/// differences for each pair on top of it. Allocates `out`, 8 bytes for each query, 4 for each row of the database, and
-/// 512 for each value of a row and each thread. May throw what extract() may.
-template <class Threads = unsigned>
-[[nodiscard]] Status nearest(const DescriptorRows& queries, const DescriptorRows& database, std::size_t k,
-                             std::vector<Match>& out, Threads&& threads = 1u) {
+/// results than memory has room for); `out` is empty then. O(queries.count * database.count * size), for floats at the
+/// speed of Eigen's matrix product; a database in the order of falling distances, or of copies, costs a sum of squared
+/// differences for each pair on top of it. Allocates `out` twice; for floats also 8 bytes for each query, 4 for each
+/// row of the database, and 512 for each value of a row and each thread. May throw what extract() may.
+template <class Rows = DescriptorRows, class Threads = unsigned>
+[[nodiscard]] Status nearest(const Rows& queries, const Rows& database, std::size_t k, std::vector<Match>& out,
+                             Threads&& threads = 1u) {
   out.clear();
   const Status usable = detail::check_comparable(queries, database);
   if (usable != Status::ok) return usable;
-  if (k == 0 || queries.count > out.max_size() / k) return Status::bad_option;
+  if (k == 0 || queries.count > out.max_size() / 2 / k) return Status::bad_option;
 
-  out.assign(queries.count * k, {no_row, detail::out_of_reach});
-  const detail::ComparedRows from(queries);
-  const detail::ComparedRows to(database);
-  std::vector<float> half_worst(detail::ComparedRows::whole_panels(queries.count), 0.5f * detail::out_of_reach);
-  auto&& executor = detail::executor_of(threads, (queries.count + detail::query_block - 1) / detail::query_block);
-  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-  const auto limits = [&](std::size_t q) { return extend::simd::load(half_worst.data() + q); };
-  const auto compare = [&](std::size_t, std::size_t first, std::size_t row, const detail::PanelProducts& products) {
-    detail::for_candidates(from, first, *to.half_norm(row), products, limits, [&](std::size_t q) {
-      Match* const best = out.data() + q * k;
-      const float distance = from.squared_distance_to(to, q, row);
-      if (!(distance < best[k - 1].distance)) return;
-      detail::insert(best, k, {static_cast<std::uint32_t>(row), distance});
-      half_worst[q] = 0.5f * best[k - 1].distance;
-    });
-  };
-  detail::for_products(executor, team, from, to, compare);
-  for (Match& match : out) {
-    match.distance = match.row == no_row ? std::numeric_limits<float>::infinity() : extend::simd::sqrt(match.distance);
-  }
+  auto&& executor = detail::executor_of(threads, detail::query_blocks(queries.count));
+  const auto best = detail::nearest_candidates(queries, database, k, executor);
+  out.resize(best.size());
+  for (std::size_t i = 0; i < best.size(); ++i) out[i] = {best[i].row, detail::distance_of(queries, best[i])};
   return Status::ok;
 }
 
 /// The pairs of rows that are each other's nearest neighbor as nearest() has it, in ascending order of the source: one
-/// pass over the products gives both directions.
+/// pass over all pairs gives both directions.
 ///
-/// `threads`, statuses, the rows that take part, cost and memory: as for nearest(). Allocates 8 bytes more for each row
-/// of the source, and for each row of the target and each thread.
-template <class Threads = unsigned>
-[[nodiscard]] Status reciprocal_correspondences(const DescriptorRows& source, const DescriptorRows& target,
-                                                std::vector<MatchedPair>& out, Threads&& threads = 1u) {
+/// Formats of rows, `threads`, statuses, the rows that take part and cost: as for nearest(). Allocates `out`, 8 bytes
+/// for each row of the source, and for each row of the target and each thread; for floats what nearest() does besides.
+template <class Rows = DescriptorRows, class Threads = unsigned>
+[[nodiscard]] Status reciprocal_correspondences(const Rows& source, const Rows& target, std::vector<MatchedPair>& out,
+                                                Threads&& threads = 1u) {
+  using Compared = typename detail::Comparison<Rows>::Compared;
+  using Number = typename Compared::Number;
   out.clear();
   const Status usable = detail::check_comparable(source, target);
   if (usable != Status::ok) return usable;
 
-  const detail::ComparedRows from(source);
-  const detail::ComparedRows to(target);
-  auto&& executor = detail::executor_of(threads, (source.count + detail::query_block - 1) / detail::query_block);
-  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-  const Match none{no_row, detail::out_of_reach};
-  std::vector<Match> of_source(source.count, none);
-  std::vector<float> half_worst(detail::ComparedRows::whole_panels(source.count), 0.5f * detail::out_of_reach);
-  std::vector<Match> of_target(team * target.count, none);  // what each thread has seen, one after the other
-  const auto compare = [&](std::size_t thread, std::size_t first, std::size_t t,
-                           const detail::PanelProducts& products) {
-    Match& nearest_source = of_target[thread * target.count + t];
-    const extend::simd::F32 half_distance = extend::simd::all(0.5f * nearest_source.distance);
-    const auto limits = [&](std::size_t s) {
-      return extend::simd::max(extend::simd::load(half_worst.data() + s), half_distance);
-    };
-    detail::for_candidates(from, first, *to.half_norm(t), products, limits, [&](std::size_t s) {
-      const float distance = from.squared_distance_to(to, s, t);
-      if (distance < nearest_source.distance) nearest_source = {static_cast<std::uint32_t>(s), distance};
-      if (!(distance < of_source[s].distance)) return;
-      of_source[s] = {static_cast<std::uint32_t>(t), distance};
-      half_worst[s] = 0.5f * distance;
-    });
+  const Compared from(source);
+  const Compared to(target);
+  auto&& executor = detail::executor_of(threads, detail::query_blocks(source.count));
+  const std::size_t team = detail::team_of(executor);
+  const detail::Candidate<Number> none{no_row, Compared::farthest};
+  typename detail::Comparison<Rows>::Limits limits(from);
+  std::vector<detail::Candidate<Number>> of_source(source.count, none);
+  std::vector<detail::Candidate<Number>> of_target(team * target.count, none);  // what each thread has seen
+  const auto consider = [&](std::size_t thread, std::size_t s, std::size_t t) {
+    const Number compared = from.compare(s, to, t);
+    detail::Candidate<Number>& nearest_source = of_target[thread * target.count + t];
+    if (compared < nearest_source.compared) nearest_source = {static_cast<std::uint32_t>(s), compared};
+    if (!(compared < of_source[s].compared)) return;
+    of_source[s] = {static_cast<std::uint32_t>(t), compared};
+    limits.set(s, compared);
   };
-  detail::for_products(executor, team, from, to, compare);
+  detail::for_near(executor, team, from, to, limits, of_target.data(), consider);
   detail::merge(of_target, target.count);
   for (std::size_t s = 0; s < source.count; ++s) {
-    const Match& match = of_source[s];
-    if (match.row == no_row || of_target[match.row].row != s) continue;
-    out.push_back({static_cast<std::uint32_t>(s), match.row, extend::simd::sqrt(match.distance)});
+    const detail::Candidate<Number>& candidate = of_source[s];
+    if (candidate.row == no_row || of_target[candidate.row].row != s) continue;
+    out.push_back({static_cast<std::uint32_t>(s), candidate.row, detail::distance_of(source, candidate)});
+  }
+  return Status::ok;
+}
+
+/// The pairs of each row of the source with its nearest one of the target, as nearest() has it, that are told from all
+/// others: the distance is below `ratio` times that of the second nearest. In ascending order of the source.
+///
+/// After D. Lowe: Distinctive image features from scale-invariant keypoints (IJCV 60, 2004), where 0.8 is the ratio.
+///
+/// `ratio`  above 0, at most 1, which leaves out only rows whose two nearest are as near. Distances are compared as
+///          Match has them, the product rounded to float: the same pairs on every machine. A target of fewer than two
+///          rows that take part has no second nearest, and there is no pair: nothing says that one would be right
+///
+/// Formats of rows, `threads`, the rows that take part and cost: as for nearest(). Statuses: bad_rows, as there, and
+/// bad_option (ratio); `out` is empty then. Allocates `out`, 16 bytes for each row of the source, and for floats what
+/// nearest() does besides.
+template <class Rows = DescriptorRows, class Threads = unsigned>
+[[nodiscard]] Status ratio_correspondences(const Rows& source, const Rows& target, float ratio,
+                                           std::vector<MatchedPair>& out, Threads&& threads = 1u) {
+  out.clear();
+  const Status usable = detail::check_comparable(source, target);
+  if (usable != Status::ok) return usable;
+  if (!(ratio > 0.0f && ratio <= 1.0f)) return Status::bad_option;
+
+  auto&& executor = detail::executor_of(threads, detail::query_blocks(source.count));
+  const auto best = detail::nearest_candidates(source, target, 2, executor);
+  for (std::size_t s = 0; s < source.count; ++s) {
+    const auto& first = best[2 * s];
+    const auto& second = best[2 * s + 1];
+    if (second.row == no_row) continue;
+    const float distance = detail::distance_of(source, first);
+    if (!(distance < extend::unfused(ratio * detail::distance_of(source, second)))) continue;
+    out.push_back({static_cast<std::uint32_t>(s), first.row, distance});
   }
   return Status::ok;
 }
@@ -8569,10 +8984,6 @@ inline namespace SHORTSHOT_TYPES {
 
 /// Every descriptor of a training view is a codeword.
 struct Codebook {
-  struct Instance {
-    std::uint32_t object_class;
-    std::string name;
-  };
   struct Codeword {
     std::uint32_t instance;
     Point center;  // of the training view, in the key point's frame
@@ -8581,7 +8992,8 @@ struct Codebook {
   std::string layout;
   std::size_t row_size = 0;
   std::vector<std::string> classes;
-  std::vector<Instance> instances;
+  std::vector<std::string> instances;
+  std::vector<std::uint32_t> class_of;  // of each instance
   std::vector<Codeword> codewords;
   std::vector<float> values;  // codewords.size() * row_size
 };
@@ -8590,7 +9002,10 @@ struct Codebook {
 inline namespace SHORTSHOT_CODE {
 
 [[nodiscard]] inline bool is_finite(const float* values, std::size_t count) noexcept {
-  return std::all_of(values, values + count, [](float value) { return math::is_finite(value); });
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!math::is_finite(values[i])) return false;
+  }
+  return true;
 }
 
 /// Rows that there are, and descriptors that can be compared: all of their values are finite. ok or bad_rows.
@@ -8638,21 +9053,25 @@ inline namespace SHORTSHOT_CODE {
 
 /// The number of a class, or of an instance; a new one if there is none of that name.
 [[nodiscard]] inline std::uint32_t class_number(Codebook& codebook, std::string_view name) {
-  std::vector<std::string>& classes = codebook.classes;
-  const auto found = std::find(classes.begin(), classes.end(), name);
-  const auto number = static_cast<std::uint32_t>(found - classes.begin());
-  if (found == classes.end()) classes.emplace_back(name);
-  return number;
+  const std::size_t count = codebook.classes.size();
+  std::size_t number = 0;
+  while (number < count && codebook.classes[number] != name) ++number;
+  if (number == count) codebook.classes.push_back(std::string(name));
+  return static_cast<std::uint32_t>(number);
 }
 [[nodiscard]] inline std::uint32_t instance_number(Codebook& codebook, std::uint32_t object_class,
                                                    std::string_view name) {
-  std::vector<Codebook::Instance>& instances = codebook.instances;
-  const auto found = std::find_if(instances.begin(), instances.end(), [&](const Codebook::Instance& instance) {
-    return instance.object_class == object_class && instance.name == name;
-  });
-  const auto number = static_cast<std::uint32_t>(found - instances.begin());
-  if (found == instances.end()) instances.push_back({object_class, std::string(name)});
-  return number;
+  const std::size_t count = codebook.instances.size();
+  const auto is_it = [&](std::size_t i) {
+    return codebook.class_of[i] == object_class && codebook.instances[i] == name;
+  };
+  std::size_t number = 0;
+  while (number < count && !is_it(number)) ++number;
+  if (number == count) {
+    codebook.instances.push_back(std::string(name));
+    codebook.class_of.push_back(object_class);
+  }
+  return static_cast<std::uint32_t>(number);
 }
 
 /// Adds the rows, which were validated, of an object of which `center` is the center. All or nothing.
@@ -8673,8 +9092,9 @@ inline namespace SHORTSHOT_CODE {
   const std::uint32_t number = instance_number(codebook, class_number(codebook, object_class), instance);
   for (std::size_t row = 0; row < descriptors.count; ++row) {
     if (!is_ok(descriptors, row)) continue;
-    const float* from = descriptors.values + row * descriptors.size;
-    codebook.values.insert(codebook.values.end(), from, from + descriptors.size);
+    const std::size_t old_size = codebook.values.size();
+    codebook.values.resize(old_size + descriptors.size);
+    std::copy_n(descriptors.values + row * descriptors.size, descriptors.size, codebook.values.data() + old_size);
     codebook.codewords.push_back({number, centers[row]});
   }
   return Status::ok;
@@ -8847,12 +9267,8 @@ class Recognizer {
   [[nodiscard]] const std::string& class_name(std::size_t object_class) const {
     return codebook_.classes[object_class];
   }
-  [[nodiscard]] const std::string& instance_name(std::size_t instance) const {
-    return codebook_.instances[instance].name;
-  }
-  [[nodiscard]] std::uint32_t class_of(std::size_t instance) const {
-    return codebook_.instances[instance].object_class;
-  }
+  [[nodiscard]] const std::string& instance_name(std::size_t instance) const { return codebook_.instances[instance]; }
+  [[nodiscard]] std::uint32_t class_of(std::size_t instance) const { return codebook_.class_of[instance]; }
 
   /// What the first training view's descriptors were, and how many values they had; empty and 0 before it.
   [[nodiscard]] const std::string& layout() const noexcept { return codebook_.layout; }
@@ -8932,12 +9348,20 @@ template <class Threads>
   return sorted;
 }
 
+/// The first of the votes whose class is not below another.
+[[nodiscard]] inline const Vote* first_of_class(const std::vector<Vote>& votes, std::uint32_t object_class) noexcept {
+  std::size_t low = 0;
+  std::size_t high = votes.size();
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    votes[middle].object_class < object_class ? low = middle + 1 : high = middle;
+  }
+  return votes.data() + low;
+}
+
 [[nodiscard]] inline VoteDensity density_for(const Recognizer& recognizer, const std::vector<Vote>& votes,
                                              std::uint32_t object_class) {
-  const auto has_class_below = [](const Vote& vote, std::uint32_t end) { return vote.object_class < end; };
-  const auto begin = std::lower_bound(votes.begin(), votes.end(), object_class, has_class_below);
-  const auto end = std::lower_bound(begin, votes.end(), object_class + 1, has_class_below);
-  return {votes.data() + (begin - votes.begin()), votes.data() + (end - votes.begin()), recognizer.options().bandwidth};
+  return {first_of_class(votes, object_class), first_of_class(votes, object_class + 1), recognizer.options().bandwidth};
 }
 
 /// The instance whose votes have the largest sum of weights at a place; the first trained one of those.
@@ -8945,7 +9369,9 @@ template <class Threads>
                                                      const Point& at) {
   std::vector<float> sums(recognizer.instance_count(), 0.0f);
   for (const Vote& vote : density) sums[vote.instance] += density.weight(vote, at);
-  return static_cast<std::uint32_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+  std::size_t heaviest = 0;
+  for (std::size_t i = 1; i < sums.size(); ++i) heaviest = sums[i] > sums[heaviest] ? i : heaviest;
+  return static_cast<std::uint32_t>(heaviest);
 }
 
 /// Hypotheses from the peak that each vote has climbed to, densest first; of equal ones, as the votes are ordered.
@@ -9083,29 +9509,33 @@ template <class D, class Threads = unsigned>
 
 // shortshot/recognition/recognizer_model.hpp: a trained recognizer as bytes, or in a file. Hosted only: allocates.
 //
-// All numbers are little-endian, floats by their bits, counts and lengths 8 bytes:
+// Between what byte_stream.hpp puts around it ("SSHOTREC", the version and the checksum):
 //
-//     "SSHOTREC", 4 bytes format version
 //     layout (length, characters), values of a row
 //     options: 4 bytes each bandwidth, neighbors, most
 //     count of classes, for each: name (length, characters)
 //     count of instances, for each: 4 bytes class, name (length, characters)
 //     count of codewords, for each: 4 bytes instance, 3 floats center in the key point's frame
 //     values, row by row
-//     8 bytes checksum (64-bit FNV-1a) of all bytes before it
-//
-// FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
-// does once in 2^64 times. It is no protection from who means harm; load() believes no number because of it.
 #ifndef SHORTSHOT_RECOGNITION_RECOGNIZER_MODEL_HPP
 #define SHORTSHOT_RECOGNITION_RECOGNIZER_MODEL_HPP
 
-#include <cstdio>
+// shortshot/store/byte_stream.hpp: what all of the library's files have in common. Hosted only: allocates.
+//
+// All numbers are little-endian, floats by their bits, counts and lengths 8 bytes:
+//
+//     8 characters that say what it is, 4 bytes format version
+//     what is saved
+//     8 bytes checksum (64-bit FNV-1a) of all bytes before it
+//
+// FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
+// does once in 2^64 times. It is no protection from who means harm; nobody believes a number because of it.
+#ifndef SHORTSHOT_STORE_BYTE_STREAM_HPP
+#define SHORTSHOT_STORE_BYTE_STREAM_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-inline constexpr std::string_view model_magic = "SSHOTREC";
-inline constexpr std::uint32_t model_version = 1;
 inline constexpr std::size_t checksum_bytes = 8;
 
 [[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size) noexcept {
@@ -9114,18 +9544,38 @@ inline constexpr std::size_t checksum_bytes = 8;
   return hash;
 }
 
-class ModelWriter {
+/// What a file is: its first characters, and the version of the format.
+struct FileKind {
+  std::string_view magic;
+  std::uint32_t version;
+
+  [[nodiscard]] std::size_t header_bytes() const noexcept { return magic.size() + sizeof version; }
+};
+
+/// Writes a file into bytes. It is complete after finish().
+class ByteWriter {
  public:
-  explicit ModelWriter(std::vector<std::uint8_t>& bytes) noexcept : bytes_(bytes) {}
+  /// In place of whatever was there; `expected_bytes` saves allocations.
+  ByteWriter(std::vector<std::uint8_t>& bytes, const FileKind& kind, std::size_t expected_bytes) : bytes_(bytes) {
+    bytes.clear();
+    bytes.reserve(expected_bytes);
+    characters(kind.magic);
+    number(kind.version);
+  }
+  void finish() { number(checksum(bytes_.data(), bytes_.size())); }
 
   template <class Unsigned>
   void number(Unsigned value) {
-    number(value, sizeof value);
+    append(value, sizeof value);
   }
-  void count(std::size_t value) { number(std::uint64_t{value}); }
-  void real(float value) { number(math::bits_of(value)); }
-  void characters(std::string_view text) {
-    for (const char c : text) number(static_cast<std::uint8_t>(c));
+  void count(std::size_t value) { append(value, 8); }
+  void real(float value) { append(math::bits_of(value), sizeof value); }
+  [[gnu::noinline]] void reals(const float* values, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) real(values[i]);
+  }
+  void point(const Point& p) {
+    const float values[3] = {p.x, p.y, p.z};
+    reals(values, 3);
   }
   void name(std::string_view text) {
     count(text.size());
@@ -9133,7 +9583,10 @@ class ModelWriter {
   }
 
  private:
-  [[gnu::noinline]] void number(std::uint64_t value, std::size_t bytes) {
+  void characters(std::string_view text) {
+    for (const char c : text) append(static_cast<std::uint8_t>(c), 1);
+  }
+  [[gnu::noinline]] void append(std::uint64_t value, std::size_t bytes) {
     for (std::size_t k = 0; k < bytes; ++k) bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * k) & 0xFFu));
   }
 
@@ -9141,9 +9594,9 @@ class ModelWriter {
 };
 
 /// Reads what may be damaged: from the first thing on that cannot be, all is zero and good() false.
-class ModelReader {
+class ByteReader {
  public:
-  ModelReader(const std::uint8_t* bytes, std::size_t size) noexcept : at_(bytes), left_(size) {}
+  ByteReader(const std::uint8_t* bytes, std::size_t size) noexcept : at_(bytes), left_(size) {}
 
   [[nodiscard]] bool good() const noexcept { return good_; }
   [[nodiscard]] std::size_t left() const noexcept { return left_; }
@@ -9151,24 +9604,26 @@ class ModelReader {
 
   template <class Unsigned>
   [[nodiscard]] Unsigned number() noexcept {
-    const std::uint8_t* const bytes = take(sizeof(Unsigned));
-    Unsigned value = 0;
-    for (std::size_t k = sizeof value; good_ && k-- > 0;) value = static_cast<Unsigned>(value << 8 | bytes[k]);
-    return value;
+    return static_cast<Unsigned>(number_of(sizeof(Unsigned)));
   }
+  /// Any bits, those of NaN too.
+  [[nodiscard]] float any_real() noexcept { return math::float_of(number<std::uint32_t>()); }
   [[nodiscard]] float real() noexcept {
-    const float value = math::float_of(number<std::uint32_t>());
+    const float value = any_real();
     require(math::is_finite(value));
     return good_ ? value : 0.0f;
   }
+  [[gnu::noinline]] void reals(float* values, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) values[i] = real();
+  }
   [[nodiscard]] Point point() noexcept {
-    const float x = real();
-    const float y = real();
-    return {x, y, real()};
+    float values[3];
+    reals(values, 3);
+    return {values[0], values[1], values[2]};
   }
   /// How many there are of something that takes `least` bytes or more each: no more than the bytes that are left hold.
   [[nodiscard]] std::size_t count(std::size_t least) noexcept {
-    const auto value = number<std::uint64_t>();
+    const std::uint64_t value = number_of(8);
     require(value <= left_ / least);
     return good_ ? static_cast<std::size_t>(value) : 0;
   }
@@ -9185,6 +9640,12 @@ class ModelReader {
   }
 
  private:
+  [[nodiscard, gnu::noinline]] std::uint64_t number_of(std::size_t size) noexcept {
+    const std::uint8_t* const bytes = take(size);
+    std::uint64_t value = 0;
+    for (std::size_t k = size; good_ && k-- > 0;) value = value << 8 | bytes[k];
+    return value;
+  }
   [[nodiscard]] const std::uint8_t* take(std::size_t size) noexcept {
     require(size <= left_);
     if (!good_) return at_;
@@ -9198,38 +9659,133 @@ class ModelReader {
   bool good_ = true;
 };
 
-/// The C library's: <fstream> takes more time to compile than all that would be used of it.
-class File {
- public:
-  File(const std::string& path, const char* mode) noexcept : file_(std::fopen(path.c_str(), mode)) {}
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-  ~File() { static_cast<void>(close()); }
-
-  [[nodiscard]] bool write(const std::vector<std::uint8_t>& bytes) noexcept {
-    return file_ != nullptr && std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
+/// Leaves `body` at what is saved, if the bytes around it are right; not_a_model, other_version or damaged_model (the
+/// bytes end early, or the checksum is wrong) if not, the first that applies.
+[[nodiscard]] inline Status open_checked(const std::uint8_t* bytes, std::size_t size, const FileKind& kind,
+                                         ByteReader& body) noexcept {
+  const std::size_t magic_bytes = kind.magic.size();
+  if (bytes == nullptr || size < magic_bytes) return Status::not_a_model;
+  for (std::size_t i = 0; i < magic_bytes; ++i) {
+    if (bytes[i] != static_cast<std::uint8_t>(kind.magic[i])) return Status::not_a_model;
   }
-  /// All that is left.
-  [[nodiscard]] bool read(std::vector<std::uint8_t>& bytes) {
-    if (file_ == nullptr) return false;
-    std::uint8_t block[4096];
-    while (const std::size_t count = std::fread(block, 1, sizeof block, file_)) {
-      bytes.insert(bytes.end(), block, block + count);
-    }
-    return std::ferror(file_) == 0;
-  }
-  /// Only then the last bytes are known to be written.
-  [[nodiscard]] bool close() noexcept {
-    const bool is_closed = file_ != nullptr && std::fclose(file_) == 0;
-    file_ = nullptr;
-    return is_closed;
-  }
+  ByteReader header(bytes + magic_bytes, size - magic_bytes);
+  const auto version = header.number<std::uint32_t>();
+  if (header.good() && version != kind.version) return Status::other_version;
+  if (header.left() < checksum_bytes) return Status::damaged_model;
+  const std::size_t checked_bytes = size - checksum_bytes;
+  ByteReader sum(bytes + checked_bytes, checksum_bytes);
+  if (sum.number<std::uint64_t>() != checksum(bytes, checked_bytes)) return Status::damaged_model;
+  body = ByteReader(bytes + kind.header_bytes(), checked_bytes - kind.header_bytes());
+  return Status::ok;
+}
 
- private:
-  std::FILE* file_;
-};
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_BYTE_STREAM_HPP
 
-inline void write(ModelWriter& to, const RecognizerOptions& options, const Codebook& codebook) {
+// shortshot/store/replace_file.hpp: files as a whole: all bytes of one, or new ones in its place. Hosted only.
+//
+// A file is never written to where it lies: a disk that is full, or a program that ends, would leave half of the new
+// file and nothing of the old one. What is new is written beside it, and then takes its name, which is one step.
+//
+// By the C library: <fstream> takes more time to compile than all that would be used of it.
+#ifndef SHORTSHOT_STORE_REPLACE_FILE_HPP
+#define SHORTSHOT_STORE_REPLACE_FILE_HPP
+
+#include <cerrno>
+#include <cstdio>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Makes a file that was not there before, of a name that nobody else has: "x" fails for one that is. Null, and no
+/// name, if there can be none. What programs that ended in between have left is never touched.
+[[nodiscard]] inline std::FILE* create_beside(const std::string& path, std::string& name) {
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    name = path;
+    name += ".tmp-";
+    name += static_cast<char>('0' + attempt / 10);
+    name += static_cast<char>('0' + attempt % 10);
+    std::FILE* const file = std::fopen(name.c_str(), "wbx");
+    if (file != nullptr) return file;
+    if (errno != EEXIST) break;
+  }
+  name.clear();
+  return nullptr;
+}
+
+/// Can a file take that name? Not where a folder or a device is: a program with all rights could replace /dev/null.
+/// Whoever could read the old file can read the new one.
+[[nodiscard]] inline bool adopt_rights(const std::string& path, std::FILE* file) noexcept {
+#if defined(__unix__) || defined(__APPLE__)
+  struct stat old;
+  if (::stat(path.c_str(), &old) != 0) return true;  // there is none
+  return S_ISREG(old.st_mode) && ::fchmod(::fileno(file), old.st_mode & 07777) == 0;
+#else
+  static_cast<void>(path);
+  static_cast<void>(file);
+  return true;
+#endif
+}
+
+/// Only when the disk has it: a full one may say so as late as that.
+[[nodiscard]] inline bool flush_to_disk(std::FILE* file) noexcept {
+  if (std::fflush(file) != 0) return false;
+#if defined(__unix__) || defined(__APPLE__)
+  return ::fsync(::fileno(file)) == 0 || errno == EINVAL;  // EINVAL: a file system without
+#else
+  return true;
+#endif
+}
+
+/// Puts a file that has `bytes` in place of what is at `path`, or where nothing is. ok or no_file; then what was there
+/// still is, as it was, and nothing else is left. A symbolic link is replaced, not the file that it leads to.
+[[nodiscard]] inline Status replace_file(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+  std::string name;
+  std::FILE* const file = create_beside(path, name);
+  if (file == nullptr) return Status::no_file;
+  bool is_written = adopt_rights(path, file) && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() &&
+                    flush_to_disk(file);
+  is_written = std::fclose(file) == 0 && is_written;
+  if (is_written && std::rename(name.c_str(), path.c_str()) == 0) return Status::ok;
+#if defined(_WIN32)  // where a name that is in use cannot be taken over
+  if (is_written && std::remove(path.c_str()) == 0 && std::rename(name.c_str(), path.c_str()) == 0) return Status::ok;
+#endif
+  static_cast<void>(std::remove(name.c_str()));
+  return Status::no_file;
+}
+
+/// All bytes of a file. ok or no_file; `bytes` may be the first ones then.
+[[nodiscard]] inline Status read_file(const std::string& path, std::vector<std::uint8_t>& bytes) {
+  bytes.clear();
+  std::FILE* const file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) return Status::no_file;
+  struct Closer {
+    std::FILE* file;
+    ~Closer() { static_cast<void>(std::fclose(file)); }
+  } const closer{file};  // memory may be short
+  std::uint8_t block[4096];
+  while (const std::size_t count = std::fread(block, 1, sizeof block, file)) {
+    bytes.insert(bytes.end(), block, block + count);
+  }
+  return std::ferror(file) == 0 ? Status::ok : Status::no_file;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_REPLACE_FILE_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline constexpr FileKind recognizer_file{"SSHOTREC", 1};
+
+inline void write(ByteWriter& to, const RecognizerOptions& options, const Codebook& codebook) {
   to.name(codebook.layout);
   to.count(codebook.row_size);
   to.real(options.bandwidth);
@@ -9238,20 +9794,20 @@ inline void write(ModelWriter& to, const RecognizerOptions& options, const Codeb
   to.count(codebook.classes.size());
   for (const std::string& name : codebook.classes) to.name(name);
   to.count(codebook.instances.size());
-  for (const Codebook::Instance& instance : codebook.instances) {
-    to.number(instance.object_class);
-    to.name(instance.name);
+  for (std::size_t i = 0; i < codebook.instances.size(); ++i) {
+    to.number(codebook.class_of[i]);
+    to.name(codebook.instances[i]);
   }
   to.count(codebook.codewords.size());
   for (const Codebook::Codeword& codeword : codebook.codewords) {
     to.number(codeword.instance);
-    for (std::size_t axis = 0; axis < 3; ++axis) to.real(coordinate(codeword.center, axis));
+    to.point(codeword.center);
   }
-  for (const float value : codebook.values) to.real(value);
+  to.reals(codebook.values.data(), codebook.values.size());
 }
 
 /// False if not all of it can be: then what has been read is of no use.
-[[nodiscard]] inline bool read(ModelReader& from, RecognizerOptions& options, Codebook& codebook) {
+[[nodiscard]] inline bool read(ByteReader& from, RecognizerOptions& options, Codebook& codebook) {
   codebook.layout = from.name();
   codebook.row_size = from.count(sizeof(float));
   options.bandwidth = from.real();
@@ -9260,8 +9816,8 @@ inline void write(ModelWriter& to, const RecognizerOptions& options, const Codeb
   from.require(validate(options) == Status::ok);
   for (std::size_t i = from.count(8); i > 0 && from.good(); --i) codebook.classes.push_back(from.name());
   for (std::size_t i = from.count(12); i > 0 && from.good(); --i) {
-    const std::uint32_t object_class = from.index(codebook.classes.size());
-    codebook.instances.push_back({object_class, from.name()});
+    codebook.class_of.push_back(from.index(codebook.classes.size()));
+    codebook.instances.push_back(from.name());
   }
   const std::size_t codewords = from.count(16);
   from.require(codewords > 0 && codewords < no_row);
@@ -9273,8 +9829,8 @@ inline void write(ModelWriter& to, const RecognizerOptions& options, const Codeb
   const std::size_t row_bytes = sizeof(float) * codebook.row_size;
   from.require(row_bytes > 0 && from.left() % row_bytes == 0 && from.left() / row_bytes == codewords);
   if (!from.good()) return false;
-  codebook.values.reserve(from.left() / sizeof(float));
-  while (from.left() > 0 && from.good()) codebook.values.push_back(from.real());
+  codebook.values.resize(codewords * codebook.row_size);
+  from.reals(codebook.values.data(), codebook.values.size());
   return from.good();
 }
 
@@ -9291,12 +9847,9 @@ inline namespace SHORTSHOT_CODE {
   if (recognizer.codeword_count() == 0) return Status::not_trained;
   if (validate(recognizer.options()) != Status::ok) return Status::bad_option;
   const std::size_t codeword_bytes = 16 + sizeof(float) * recognizer.row_size();
-  bytes.reserve(4096 + recognizer.codeword_count() * codeword_bytes);
-  detail::ModelWriter to(bytes);
-  to.characters(detail::model_magic);
-  to.number(detail::model_version);
+  detail::ByteWriter to(bytes, detail::recognizer_file, 4096 + recognizer.codeword_count() * codeword_bytes);
   detail::write(to, recognizer.options(), detail::RecognizerAccess::codebook(recognizer));
-  to.number(detail::checksum(bytes.data(), bytes.size()));
+  to.finish();
   return Status::ok;
 }
 
@@ -9307,23 +9860,12 @@ inline namespace SHORTSHOT_CODE {
 /// few times the bytes at the most, whatever they say.
 [[nodiscard]] inline Status load(const std::uint8_t* bytes, std::size_t size, std::string_view layout,
                                  Recognizer& out) {
-  constexpr std::size_t magic_bytes = detail::model_magic.size();
-  constexpr std::size_t header_bytes = magic_bytes + sizeof detail::model_version;
-  if (bytes == nullptr || size < magic_bytes || std::memcmp(bytes, detail::model_magic.data(), magic_bytes) != 0) {
-    return Status::not_a_model;
-  }
-  detail::ModelReader header(bytes + magic_bytes, size - magic_bytes);
-  const auto version = header.number<std::uint32_t>();
-  if (header.good() && version != detail::model_version) return Status::other_version;
-  if (header.left() < detail::checksum_bytes) return Status::damaged_model;
-  const std::size_t checked_bytes = size - detail::checksum_bytes;
-  detail::ModelReader checksum(bytes + checked_bytes, detail::checksum_bytes);
-  if (checksum.number<std::uint64_t>() != detail::checksum(bytes, checked_bytes)) return Status::damaged_model;
-
+  detail::ByteReader body(nullptr, 0);
+  const Status status = detail::open_checked(bytes, size, detail::recognizer_file, body);
+  if (status != Status::ok) return status;
   Recognizer loaded;
   detail::Codebook& codebook = detail::RecognizerAccess::codebook(loaded);
   RecognizerOptions options;
-  detail::ModelReader body(bytes + header_bytes, checked_bytes - header_bytes);
   if (!detail::read(body, options, codebook)) return Status::damaged_model;
   if (codebook.layout != layout) return Status::other_descriptor;
   loaded.set_options(options);
@@ -9331,26 +9873,240 @@ inline namespace SHORTSHOT_CODE {
   return Status::ok;
 }
 
-/// The same in a file, which is written anew. Also no_file: it cannot be opened, or not all of it written or read. If
-/// that happens to save(), the file may be damaged, and load() will say so.
+/// The same in a file. Also no_file: it cannot be opened, or not all of it written or read. If that happens to save()
+/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-00" (or 01,
+/// ...), and takes its name when it is complete. So there must be room for both, and its folder must be writable.
 [[nodiscard]] inline Status save(const Recognizer& recognizer, const std::string& path) {
   std::vector<std::uint8_t> bytes;
   const Status status = save(recognizer, bytes);
-  if (status != Status::ok) return status;
-  detail::File file(path, "wb");
-  const bool is_written = file.write(bytes);
-  return file.close() && is_written ? Status::ok : Status::no_file;
+  return status == Status::ok ? detail::replace_file(path, bytes) : status;
 }
 
 [[nodiscard]] inline Status load(const std::string& path, std::string_view layout, Recognizer& out) {
   std::vector<std::uint8_t> bytes;
-  detail::File file(path, "rb");
-  return file.read(bytes) ? load(bytes.data(), bytes.size(), layout, out) : Status::no_file;
+  const Status status = detail::read_file(path, bytes);
+  return status == Status::ok ? load(bytes.data(), bytes.size(), layout, out) : status;
 }
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_RECOGNITION_RECOGNIZER_MODEL_HPP
+
+// shortshot/store/features_file.hpp: what extract() gives as bytes, or in a file. Hosted only: allocates.
+//
+// Between what byte_stream.hpp puts around it ("SSHOTFEA", the version and the checksum), n rows of s values:
+//
+//     layout (length, characters), s, n
+//     values: n * s floats, row by row
+//     statuses: n bytes
+//     key points, for each: 3 floats position, float intensity, 3 bytes red, green, blue, 1 byte: 1 if there is a color
+//       plus 2 if there is an intensity
+//     frames: n * 9 floats, the x axis first
+//     frames' confidences: n * 3 floats (gap, margin of x, margin of z)
+//     neighbors: n * 4 bytes
+//
+// Numbers of statuses are part of the format: Status only ever grows at its end.
+#ifndef SHORTSHOT_STORE_FEATURES_FILE_HPP
+#define SHORTSHOT_STORE_FEATURES_FILE_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline constexpr FileKind features_file{"SSHOTFEA", 1};
+
+/// Of a row, without its values.
+inline constexpr std::size_t feature_bytes = 1 + (3 + 1) * sizeof(float) + 4 + (9 + 3) * sizeof(float) + 4;
+
+/// The vectors of a Features<D>, or of a const one: what follows is compiled once for all D, and, being templates, not
+/// at all where no features are saved.
+template <template <class> class MaybeConst>
+struct FeatureColumns {
+  std::string_view layout;
+  std::size_t row_size;
+  MaybeConst<std::vector<float>>& values;
+  MaybeConst<std::vector<Status>>& status;
+  MaybeConst<std::vector<KeyPoint>>& keypoints;
+  MaybeConst<std::vector<Frame>>& frames;
+  MaybeConst<std::vector<FrameConfidence>>& confidence;
+  MaybeConst<std::vector<std::uint32_t>>& neighbors;
+};
+template <class T>
+using Same = T;
+using ColumnsToSave = FeatureColumns<std::add_const_t>;
+using ColumnsToLoad = FeatureColumns<Same>;
+
+template <class Columns, class SomeFeatures>
+[[nodiscard]] Columns columns_of(SomeFeatures& features, std::string_view layout, std::size_t row_size) noexcept {
+  return {layout,
+          row_size,
+          features.values,
+          features.status,
+          features.keypoints,
+          features.frames,
+          features.frame_confidence,
+          features.neighbors};
+}
+
+/// What load() would take: as many of everything, and no value that is not finite. A key point's position and intensity
+/// may be anything: that is what its status says.
+template <class Columns>
+[[nodiscard]] bool can_be_saved(const Columns& from) noexcept {
+  const std::size_t count = from.status.size();
+  bool can = from.values.size() == count * from.row_size && from.keypoints.size() == count &&
+             from.frames.size() == count && from.confidence.size() == count && from.neighbors.size() == count;
+  for (const float value : from.values) can = can && math::is_finite(value);
+  for (const Status status : from.status) can = can && static_cast<int>(status) < status_count;
+  for (const Frame& frame : from.frames) {
+    can = can && math::is_finite(frame.x) && math::is_finite(frame.y) && math::is_finite(frame.z);
+  }
+  for (const FrameConfidence& c : from.confidence) {
+    can = can && is_finite(Point{c.eigenvalue_gap, c.x_margin, c.z_margin});
+  }
+  return can;
+}
+
+template <class Columns>
+void write_columns(ByteWriter& to, const Columns& from) {
+  to.name(from.layout);
+  to.count(from.row_size);
+  to.count(from.status.size());
+  to.reals(from.values.data(), from.values.size());
+  for (const Status status : from.status) to.number(static_cast<std::uint8_t>(status));
+  for (const KeyPoint& key : from.keypoints) {
+    to.point(key.position);
+    to.real(key.intensity);
+    for (const std::uint8_t channel : {key.color.r, key.color.g, key.color.b}) to.number(channel);
+    to.number(static_cast<std::uint8_t>((key.has_color ? 1 : 0) + (key.has_intensity ? 2 : 0)));
+  }
+  for (const Frame& frame : from.frames) {
+    to.reals(frame.x, 3);
+    to.reals(frame.y, 3);
+    to.reals(frame.z, 3);
+  }
+  for (const FrameConfidence& c : from.confidence) to.point({c.eigenvalue_gap, c.x_margin, c.z_margin});
+  for (const std::uint32_t count : from.neighbors) to.number(count);
+}
+
+[[nodiscard]] inline Status read_status(ByteReader& from) noexcept {
+  const auto number = from.number<std::uint8_t>();
+  from.require(number < status_count);
+  return from.good() ? static_cast<Status>(number) : Status::ok;
+}
+
+[[nodiscard]] inline KeyPoint read_keypoint(ByteReader& from) noexcept {
+  KeyPoint key{};
+  for (float* value : {&key.position.x, &key.position.y, &key.position.z, &key.intensity}) *value = from.any_real();
+  for (std::uint8_t* channel : {&key.color.r, &key.color.g, &key.color.b}) *channel = from.number<std::uint8_t>();
+  const auto has = from.number<std::uint8_t>();
+  from.require(has < 4);
+  key.has_color = (has & 1u) != 0;
+  key.has_intensity = (has & 2u) != 0;
+  return key;
+}
+
+/// ok, other_descriptor or damaged_model; what is not ok may leave anything.
+template <class Columns>
+[[nodiscard]] Status read_columns(ByteReader& from, const Columns& to) {
+  const std::string layout = from.name();
+  const auto row_size = from.number<std::uint64_t>();
+  if (!from.good()) return Status::damaged_model;
+  if (layout != to.layout) return Status::other_descriptor;
+  from.require(row_size == to.row_size);
+  const std::size_t row_bytes = to.row_size * sizeof(float) + feature_bytes;
+  const std::size_t count = from.count(row_bytes);
+  from.require(from.left() == count * row_bytes);
+  if (!from.good()) return Status::damaged_model;
+  to.values.resize(count * to.row_size);
+  from.reals(to.values.data(), to.values.size());
+  to.status.reserve(count);
+  while (to.status.size() < count) to.status.push_back(read_status(from));
+  to.keypoints.reserve(count);
+  while (to.keypoints.size() < count) to.keypoints.push_back(read_keypoint(from));
+  to.frames.resize(count);
+  for (Frame& frame : to.frames) {
+    from.reals(frame.x, 3);
+    from.reals(frame.y, 3);
+    from.reals(frame.z, 3);
+  }
+  to.confidence.reserve(count);
+  while (to.confidence.size() < count) {
+    const Point c = from.point();
+    to.confidence.push_back({c.x, c.y, c.z});
+  }
+  to.neighbors.reserve(count);
+  while (to.neighbors.size() < count) to.neighbors.push_back(from.number<std::uint32_t>());
+  return from.good() ? Status::ok : Status::damaged_model;
+}
+
+template <class Columns>
+[[nodiscard]] Status save_columns(const Columns& from, std::vector<std::uint8_t>& bytes) {
+  bytes.clear();
+  if (!can_be_saved(from)) return Status::bad_rows;
+  const std::size_t row_bytes = from.row_size * sizeof(float) + feature_bytes;
+  ByteWriter to(bytes, features_file, 4096 + from.status.size() * row_bytes);
+  write_columns(to, from);
+  to.finish();
+  return Status::ok;
+}
+template <class Columns>
+[[nodiscard]] Status load_columns(const std::uint8_t* bytes, std::size_t size, const Columns& to) {
+  ByteReader body(nullptr, 0);
+  const Status status = open_checked(bytes, size, features_file, body);
+  return status == Status::ok ? read_columns(body, to) : status;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// What extract() gave, as bytes: the same ones on every machine, 4 * D::size + 73 for a row and some hundred more.
+///
+/// Statuses: bad_rows (vectors that are not as long as each other, as extract() makes them; values, frames or
+/// confidences that are not finite); `bytes` is empty then. Allocates the bytes. Reentrant.
+template <class D>
+[[nodiscard]] Status save(const Features<D>& features, std::vector<std::uint8_t>& bytes) {
+  const std::string layout = layout_of<D>();
+  return detail::save_columns(detail::columns_of<detail::ColumnsToSave>(features, layout, std::size_t{D::size}), bytes);
+}
+
+/// The features that save() made these bytes of, bit for bit. What layout_of<D>() does not say (radii, how frames were
+/// turned) is for the caller to know.
+///
+/// Statuses, the first one that applies: not_a_model (no features' bytes), other_version, damaged_model (the bytes end
+/// early, or go on; the checksum is wrong), other_descriptor (of another layout than D's), damaged_model (the bytes are
+/// not what save() writes). `out` has not changed then. Allocates about as much as there are bytes, whatever they say.
+/// Reentrant.
+template <class D>
+[[nodiscard]] Status load(const std::uint8_t* bytes, std::size_t size, Features<D>& out) {
+  const std::string layout = layout_of<D>();
+  Features<D> loaded;
+  const Status status = detail::load_columns(
+      bytes, size, detail::columns_of<detail::ColumnsToLoad>(loaded, layout, std::size_t{D::size}));
+  if (status == Status::ok) out = std::move(loaded);
+  return status;
+}
+
+/// The same in a file. Also no_file: it cannot be opened, or not all of it written or read. If that happens to save()
+/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-00" (or 01,
+/// ...), and takes its name when it is complete. So there must be room for both, and its folder must be writable.
+template <class D>
+[[nodiscard]] Status save(const Features<D>& features, const std::string& path) {
+  std::vector<std::uint8_t> bytes;
+  const Status status = save(features, bytes);
+  return status == Status::ok ? detail::replace_file(path, bytes) : status;
+}
+template <class D>
+[[nodiscard]] Status load(const std::string& path, Features<D>& out) {
+  std::vector<std::uint8_t> bytes;
+  const Status status = detail::read_file(path, bytes);
+  return status == Status::ok ? load(bytes.data(), bytes.size(), out) : status;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_STORE_FEATURES_FILE_HPP
 #endif
 
 #if defined(NANOFLANN_VERSION)
@@ -9638,3 +10394,4 @@ CloudView view_eigen(const Arguments&...) noexcept {
 #pragma pop_macro("IN")
 #pragma pop_macro("OUT")
 #pragma pop_macro("I")
+// clang-format on

@@ -38,7 +38,7 @@ project_files | search '[^\x00-\x7F]' | refuse "character outside of ASCII"
 project_files | search '/(work|tmp|home)/' | refuse "path of some machine"
 header_code | grep -E ':.*\bdouble\b' | refuse "double in the headers"
 header_code | grep -E ':.*(\bprintf|<iostream>|<cstdio>|\babort\(|\bthrow\b|\bnew\b)' |
-  grep -vE "/recognizer_model\.hpp:.*<cstdio>" |  # saves and loads files
+  grep -vE "/replace_file\.hpp:.*(<cstdio>)" |  # saves and loads files
   refuse "printing, aborting, throwing or allocating in the headers"
 header_code | grep -E '# *define +' | grep -vE '# *define +SHORTSHOT_' | refuse "macro without the prefix SHORTSHOT_"
 project_files run .ci/run '*.sh' '*.hpp' '*.cpp' '*.cmake' '*CMakeLists.txt' ':!single_include/shortshot.hpp' |

@@ -9,14 +9,14 @@
 // view_eigen(). Whoever comes too late includes this header once more: what is new is added. Without them, the compiler
 // says what is missing where one of the two is used.
 //
-// Macros of other headers (min, near, Status, ...) do no harm here, whether they come before it or after it. In your own
-// code they do what they always do.
+// Macros of other headers (min, near, Status, ...) do no harm here, whether they come before it or after it. In your
+// own code they do what they always do.
 
-#include "macros_off.hpp"
-
+// clang-format off: in this order
 #include "cloud/view_of.hpp"
 #include "cloud/view_point_cloud2.hpp"
 #include "kernel.hpp"
+#include "macros_off.hpp"
 
 #if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
 #include "batch/describe_cloud.hpp"
@@ -30,6 +30,7 @@
 #include "recognition/recognize.hpp"
 #include "recognition/recognizer_model.hpp"
 #include "search/grid_search.hpp"
+#include "store/features_file.hpp"
 #endif
 
 #if defined(NANOFLANN_VERSION)
@@ -45,3 +46,4 @@
 #endif
 
 #include "macros_on.hpp"
+// clang-format on

@@ -33,10 +33,10 @@ enum class [[nodiscard]] Status : std::uint8_t {
   too_few_pairs,       ///< fewer than three correspondences
   no_pose,             ///< no rigid motion that at least three correspondences agree on
   not_trained,         ///< the recognizer has no training view with a descriptor
-  not_a_model,         ///< the bytes are no recognizer's
-  other_version,       ///< the model was written by a version with another format
-  other_descriptor,    ///< descriptors of another layout than the model was trained with
-  damaged_model,       ///< the model is truncated, or its checksum or contents are wrong
+  not_a_model,         ///< the bytes are no recognizer's, or no features', whichever was asked for
+  other_version,       ///< the file was written by a version with another format
+  other_descriptor,    ///< descriptors of another layout than the recognizer or the file has
+  damaged_model,       ///< the file is truncated, or its checksum or contents are wrong
   no_file,             ///< a file cannot be read or written
   missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
   unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
@@ -72,10 +72,10 @@ inline namespace SHORTSHOT_CODE {
     case Status::too_few_pairs: return "a pose takes three correspondences or more";
     case Status::no_pose: return "no rigid motion fits three correspondences or more";
     case Status::not_trained: return "the recognizer has no training view";
-    case Status::not_a_model: return "not a recognizer's model";
-    case Status::other_version: return "the model's format is of another version";
-    case Status::other_descriptor: return "the model was trained with another descriptor";
-    case Status::damaged_model: return "the model is damaged";
+    case Status::not_a_model: return "not a file of this kind";
+    case Status::other_version: return "the file's format is of another version";
+    case Status::other_descriptor: return "the file or the recognizer is of another descriptor";
+    case Status::damaged_model: return "the file is damaged";
     case Status::no_file: return "the file cannot be read or written";
     case Status::missing_intensities: return "the descriptor needs intensities and there are none";
     case Status::unsure_frame: return "other key points have surer frames";

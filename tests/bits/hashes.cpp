@@ -131,6 +131,45 @@ void print_all(const Input& input) {
   print_descriptors<Cshot<Shape, 7, 12>>(input, search, "cshot_odd");
 }
 
+/// Of rows in any format: nearest ones, and pairs by both tests.
+template <class Rows>
+std::vector<MatchedPair> print_matches(const Input& input, const Rows& view, const Rows& other, const char* array) {
+  std::vector<Match> matches;
+  std::vector<MatchedPair> mutual, distinct;
+  const Status matched[] = {nearest(view, other, 3, matches), reciprocal_correspondences(view, other, mutual),
+                            ratio_correspondences(view, other, 0.9f, distinct)};
+  Hash hash;
+  hash.add(matched, 3);
+  hash.add(matches.data(), matches.size());
+  hash.add(mutual.data(), mutual.size());
+  hash.add(distinct.data(), distinct.size());
+  hash.print(input.name, array);
+  return mutual;
+}
+
+template <class D>
+void print_packed_matches(const Input& input, const Features<D>& view, const Features<D>& other) {
+  std::vector<ByteDescriptor<D>> bytes[2];
+  std::vector<BinaryDescriptor<D>> bits[2];
+  for (const int k : {0, 1}) {
+    const Features<D>& features = k == 0 ? view : other;
+    bytes[k].resize(features.size());
+    bits[k].resize(features.size());
+    for (std::size_t i = 0; i < features.size(); ++i) {
+      quantize(features[i], bytes[k][i]);
+      binarize(features[i], bits[k][i]);
+    }
+  }
+  print_matches(input, rows_of(bytes[0], view.status.data()), rows_of(bytes[1], other.status.data()), "matches_bytes");
+  print_matches(input, rows_of(bits[0], view.status.data()), rows_of(bits[1], other.status.data()), "matches_bits");
+  std::vector<std::uint8_t> file;
+  const Status saved = save(view, file);
+  Hash hash;
+  hash.add(&saved, 1);
+  hash.add(file.data(), file.size());
+  hash.print(input.name, "features_file");
+}
+
 /// Matches of a view's key points with those seen with another radius, the motion between them, and what it shows.
 void print_recognition(const Input& input) {
   std::vector<KeyPoint> keypoints;
@@ -141,23 +180,18 @@ void print_recognition(const Input& input) {
   const Status described[] = {extract(input.cloud, search, keypoints, input.radius, view),
                               extract(input.cloud, search, keypoints, 0.9f * input.radius.value, other)};
   hash.add(described, 2);
-  std::vector<Match> matches;
-  std::vector<MatchedPair> correspondences;
-  const Status matched[] = {nearest(rows_of(view), rows_of(other), 3, matches),
-                            reciprocal_correspondences(rows_of(view), rows_of(other), correspondences)};
-  hash.add(matched, 2);
-  hash.add(matches.data(), matches.size());
-  hash.add(correspondences.data(), correspondences.size());
-  hash.print(input.name, "matches");
+  hash.print(input.name, "described");
+  const std::vector<MatchedPair> mutual = print_matches(input, rows_of(view), rows_of(other), "matches");
+  print_packed_matches(input, view, other);
 
   std::vector<PointPair> pairs;
-  for (const MatchedPair& c : correspondences) {
+  for (const MatchedPair& c : mutual) {
     const Point& p = keypoints[c.target].position;
     const float y = extend::unfused(0.8f * p.x) - extend::unfused(0.6f * p.z);
     const float z = extend::unfused(0.6f * p.x) + extend::unfused(0.8f * p.z);
     pairs.push_back({keypoints[c.source].position, {1.0f - p.y, y, z}});
   }
-  Pose fitted, estimated;
+  Pose fitted{}, estimated{};
   std::vector<std::uint32_t> inliers;
   const Status posed[] = {fit_pose(pairs, fitted), estimate_pose(pairs, RansacOptions{}, estimated, inliers)};
   Hash pose;

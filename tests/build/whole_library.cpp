@@ -89,6 +89,33 @@ std::size_t describe_all(const shortshot::CloudView& cloud) {
   return rows;
 }
 
+template <class Rows>
+std::size_t match(const Rows& rows) {
+  std::vector<shortshot::Match> matches;
+  std::vector<shortshot::MatchedPair> mutual, distinct;
+  if (shortshot::nearest(rows, rows, 2, matches) != shortshot::Status::ok) return 0;
+  if (shortshot::reciprocal_correspondences(rows, rows, mutual) != shortshot::Status::ok) return 0;
+  if (shortshot::ratio_correspondences(rows, rows, 0.8f, distinct) != shortshot::Status::ok) return 0;
+  return matches.size() + mutual.size() + distinct.size();
+}
+
+std::size_t store(const shortshot::Features<shortshot::Ssh32>& features) {
+  std::vector<shortshot::ByteDescriptor<shortshot::Ssh32>> bytes(features.size());
+  std::vector<shortshot::BinaryDescriptor<shortshot::Ssh32>> bits(features.size());
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    shortshot::quantize(features[i], bytes[i]);
+    shortshot::binarize(features[i], bits[i]);
+  }
+  std::vector<std::uint8_t> file;
+  shortshot::Features<shortshot::Ssh32> loaded;
+  if (shortshot::save(features, file) != shortshot::Status::ok) return 0;
+  if (shortshot::load(file.data(), file.size(), loaded) != shortshot::Status::ok) return 0;
+  if (shortshot::save(loaded, std::string("/dev/null/none")) == shortshot::Status::ok) return 0;
+  if (shortshot::load(std::string("/dev/null/none"), loaded) == shortshot::Status::ok) return 0;
+  const auto squares = static_cast<std::size_t>(shortshot::l2_distance(features[0], loaded[0], 32));
+  return match(shortshot::rows_of(bytes)) + match(shortshot::rows_of(bits, features.status.data())) + squares;
+}
+
 std::size_t recognize(const shortshot::CloudView& cloud) {
   std::vector<shortshot::KeyPoint> keypoints;
   shortshot::Features<shortshot::Ssh32> features;
@@ -100,6 +127,10 @@ std::size_t recognize(const shortshot::CloudView& cloud) {
   std::vector<shortshot::MatchedPair> correspondences;
   if (shortshot::nearest(rows_of(features), rows_of(features), 2, matches) != shortshot::Status::ok) return 0;
   if (shortshot::reciprocal_correspondences(rows_of(features), rows_of(features), correspondences, 2) !=
+      shortshot::Status::ok) {
+    return 0;
+  }
+  if (shortshot::ratio_correspondences(rows_of(features), rows_of(features), 0.8f, correspondences) !=
       shortshot::Status::ok) {
     return 0;
   }
@@ -121,7 +152,7 @@ std::size_t recognize(const shortshot::CloudView& cloud) {
   shortshot::ActivationShares shares;
   if (shortshot::recognize(recognizer, features, hypotheses) != shortshot::Status::ok) return 0;
   if (shortshot::activation_shares(recognizer, features, shares) != shortshot::Status::ok) return 0;
-  return hypotheses.size() + shares.classes.size() + inliers.size();
+  return hypotheses.size() + shares.classes.size() + inliers.size() + store(features);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -32,7 +31,7 @@ template <class D>
   for (std::size_t row = 0; row < features.size(); ++row) {
     if (features.status[row] == Status::ok) rows.push_back(static_cast<std::uint32_t>(row));
   }
-  const float wanted = std::round(share * static_cast<float>(rows.size()));
+  const float wanted = __builtin_roundf(share * static_cast<float>(rows.size()));
   const auto kept = std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
   if (share == 1.0f || kept >= rows.size()) return Status::ok;
   const auto end = rows.begin() + static_cast<std::ptrdiff_t>(kept);

@@ -2,10 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <tuple>
 #include <vector>
 
 #include "../base/math.hpp"
@@ -44,7 +42,7 @@ struct VoxelMember {
     float from_center[3];
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float position = coordinate(p, axis) / leaf;
-      member.voxel[axis] = std::floor(position);
+      member.voxel[axis] = __builtin_floorf(position);
       member.place[axis] = position - member.voxel[axis];
       from_center[axis] = member.place[axis] - 0.5f;
     }
@@ -53,9 +51,12 @@ struct VoxelMember {
     members.push_back(member);
   });
   if (members.empty()) return Status::empty_cloud;
-  const auto key = [](const VoxelMember& m) { return std::tie(m.voxel[2], m.voxel[1], m.voxel[0], m.d2, m.index); };
-  std::sort(members.begin(), members.end(),
-            [&](const VoxelMember& a, const VoxelMember& b) { return key(a) < key(b); });
+  std::sort(members.begin(), members.end(), [](const VoxelMember& a, const VoxelMember& b) {
+    for (std::size_t axis = 3; axis-- > 0;) {
+      if (a.voxel[axis] != b.voxel[axis]) return a.voxel[axis] < b.voxel[axis];
+    }
+    return a.d2 != b.d2 ? a.d2 < b.d2 : a.index < b.index;
+  });
   return Status::ok;
 }
 

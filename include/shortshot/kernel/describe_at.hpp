@@ -28,7 +28,8 @@ inline namespace SHORTSHOT_CODE {
 
 /// Can this cloud be described by D with this search and support? All that can be said before the first key point.
 template <class D, class Search>
-[[nodiscard, gnu::always_inline]] inline Status validate(const CloudView& cloud, const Search& search, const Support& support) noexcept {
+[[nodiscard, gnu::always_inline]] inline Status validate(const CloudView& cloud, const Search& search,
+                                                         const Support& support) noexcept {
   Status status = detail::validate_search(cloud, search);
   if (status == Status::ok) status = validate(support.radius);
   if (status == Status::ok) status = validate(support.frame_radius);
@@ -117,9 +118,10 @@ template <class D, class Place>
 
 /// Everything up to the gathered neighborhood; finish(neighborhood, sources, position) makes the descriptor of it.
 template <class D, class Search, class Place, class Memory, class Finish, class... Own>
-[[nodiscard, gnu::always_inline]] inline Status describe_key(const CloudView& cloud, const Search& search, const Place& place,
-                                         const Support& support, Memory& workspace, float* out, const Finish& finish,
-                                         const Own&... own) noexcept {
+[[nodiscard, gnu::always_inline]] inline Status describe_key(const CloudView& cloud, const Search& search,
+                                                             const Place& place, const Support& support,
+                                                             Memory& workspace, float* out, const Finish& finish,
+                                                             const Own&... own) noexcept {
   std::memset(out, 0, D::size_bytes);
   KeyPoint key;
   Status status = validate<D>(cloud, search, support);
@@ -157,9 +159,9 @@ inline namespace SHORTSHOT_CODE {
 /// reentrant, one workspace per thread.
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place = KeyPoint, class Memory,
           class... Own>
-[[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
-                                        const Support& support, Memory& workspace, float* out,
-                                        const Own&... own) noexcept {
+[[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search,
+                                                            const Place& place, const Support& support,
+                                                            Memory& workspace, float* out, const Own&... own) noexcept {
   return detail::describe_key<D>(
       cloud, search, place, support, workspace, out,
       [&](const auto& n, const auto& sources, const Point& position) __attribute__((always_inline)) {
@@ -172,14 +174,13 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, c
 /// The same in a frame that the caller knows; bad_frame if it is not orthonormal.
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place = KeyPoint, class Memory,
           class... Own>
-[[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search, const Place& place,
-                                        const Frame& frame, Radius radius, Memory& workspace, float* out,
-                                        const Own&... own) noexcept {
+[[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search,
+                                                            const Place& place, const Frame& frame, Radius radius,
+                                                            Memory& workspace, float* out, const Own&... own) noexcept {
   return detail::describe_key<D>(
       cloud, search, place, radius, workspace, out,
-      [&](const auto& n, const auto& sources, const Point&) __attribute__((always_inline)) {
-        return describe<D, ChunkSize>(n, sources, frame, radius, out);
-      },
+      [&](const auto& n, const auto& sources, const Point&)
+          __attribute__((always_inline)) { return describe<D, ChunkSize>(n, sources, frame, radius, out); },
       own...);
 }
 

@@ -23,10 +23,6 @@ inline namespace SHORTSHOT_TYPES {
 
 /// Every descriptor of a training view is a codeword.
 struct Codebook {
-  struct Instance {
-    std::uint32_t object_class;
-    std::string name;
-  };
   struct Codeword {
     std::uint32_t instance;
     Point center;  // of the training view, in the key point's frame
@@ -35,7 +31,8 @@ struct Codebook {
   std::string layout;
   std::size_t row_size = 0;
   std::vector<std::string> classes;
-  std::vector<Instance> instances;
+  std::vector<std::string> instances;
+  std::vector<std::uint32_t> class_of;  // of each instance
   std::vector<Codeword> codewords;
   std::vector<float> values;  // codewords.size() * row_size
 };
@@ -44,7 +41,10 @@ struct Codebook {
 inline namespace SHORTSHOT_CODE {
 
 [[nodiscard]] inline bool is_finite(const float* values, std::size_t count) noexcept {
-  return std::all_of(values, values + count, [](float value) { return math::is_finite(value); });
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!math::is_finite(values[i])) return false;
+  }
+  return true;
 }
 
 /// Rows that there are, and descriptors that can be compared: all of their values are finite. ok or bad_rows.
@@ -92,21 +92,25 @@ inline namespace SHORTSHOT_CODE {
 
 /// The number of a class, or of an instance; a new one if there is none of that name.
 [[nodiscard]] inline std::uint32_t class_number(Codebook& codebook, std::string_view name) {
-  std::vector<std::string>& classes = codebook.classes;
-  const auto found = std::find(classes.begin(), classes.end(), name);
-  const auto number = static_cast<std::uint32_t>(found - classes.begin());
-  if (found == classes.end()) classes.emplace_back(name);
-  return number;
+  const std::size_t count = codebook.classes.size();
+  std::size_t number = 0;
+  while (number < count && codebook.classes[number] != name) ++number;
+  if (number == count) codebook.classes.push_back(std::string(name));
+  return static_cast<std::uint32_t>(number);
 }
 [[nodiscard]] inline std::uint32_t instance_number(Codebook& codebook, std::uint32_t object_class,
                                                    std::string_view name) {
-  std::vector<Codebook::Instance>& instances = codebook.instances;
-  const auto found = std::find_if(instances.begin(), instances.end(), [&](const Codebook::Instance& instance) {
-    return instance.object_class == object_class && instance.name == name;
-  });
-  const auto number = static_cast<std::uint32_t>(found - instances.begin());
-  if (found == instances.end()) instances.push_back({object_class, std::string(name)});
-  return number;
+  const std::size_t count = codebook.instances.size();
+  const auto is_it = [&](std::size_t i) {
+    return codebook.class_of[i] == object_class && codebook.instances[i] == name;
+  };
+  std::size_t number = 0;
+  while (number < count && !is_it(number)) ++number;
+  if (number == count) {
+    codebook.instances.push_back(std::string(name));
+    codebook.class_of.push_back(object_class);
+  }
+  return static_cast<std::uint32_t>(number);
 }
 
 /// Adds the rows, which were validated, of an object of which `center` is the center. All or nothing.
@@ -127,8 +131,9 @@ inline namespace SHORTSHOT_CODE {
   const std::uint32_t number = instance_number(codebook, class_number(codebook, object_class), instance);
   for (std::size_t row = 0; row < descriptors.count; ++row) {
     if (!is_ok(descriptors, row)) continue;
-    const float* from = descriptors.values + row * descriptors.size;
-    codebook.values.insert(codebook.values.end(), from, from + descriptors.size);
+    const std::size_t old_size = codebook.values.size();
+    codebook.values.resize(old_size + descriptors.size);
+    std::copy_n(descriptors.values + row * descriptors.size, descriptors.size, codebook.values.data() + old_size);
     codebook.codewords.push_back({number, centers[row]});
   }
   return Status::ok;

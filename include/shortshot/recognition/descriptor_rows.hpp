@@ -61,7 +61,8 @@ template <class D>
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-[[nodiscard]] inline bool is_ok(const DescriptorRows& rows, std::size_t row) noexcept {
+template <class Rows>
+[[nodiscard]] bool is_ok(const Rows& rows, std::size_t row) noexcept {
   return rows.status == nullptr || rows.status[row] == Status::ok;
 }
 

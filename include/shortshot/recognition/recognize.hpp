@@ -75,12 +75,20 @@ template <class Threads>
   return sorted;
 }
 
+/// The first of the votes whose class is not below another.
+[[nodiscard]] inline const Vote* first_of_class(const std::vector<Vote>& votes, std::uint32_t object_class) noexcept {
+  std::size_t low = 0;
+  std::size_t high = votes.size();
+  while (low < high) {
+    const std::size_t middle = (low + high) / 2;
+    votes[middle].object_class < object_class ? low = middle + 1 : high = middle;
+  }
+  return votes.data() + low;
+}
+
 [[nodiscard]] inline VoteDensity density_for(const Recognizer& recognizer, const std::vector<Vote>& votes,
                                              std::uint32_t object_class) {
-  const auto has_class_below = [](const Vote& vote, std::uint32_t end) { return vote.object_class < end; };
-  const auto begin = std::lower_bound(votes.begin(), votes.end(), object_class, has_class_below);
-  const auto end = std::lower_bound(begin, votes.end(), object_class + 1, has_class_below);
-  return {votes.data() + (begin - votes.begin()), votes.data() + (end - votes.begin()), recognizer.options().bandwidth};
+  return {first_of_class(votes, object_class), first_of_class(votes, object_class + 1), recognizer.options().bandwidth};
 }
 
 /// The instance whose votes have the largest sum of weights at a place; the first trained one of those.
@@ -88,7 +96,9 @@ template <class Threads>
                                                      const Point& at) {
   std::vector<float> sums(recognizer.instance_count(), 0.0f);
   for (const Vote& vote : density) sums[vote.instance] += density.weight(vote, at);
-  return static_cast<std::uint32_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+  std::size_t heaviest = 0;
+  for (std::size_t i = 1; i < sums.size(); ++i) heaviest = sums[i] > sums[heaviest] ? i : heaviest;
+  return static_cast<std::uint32_t>(heaviest);
 }
 
 /// Hypotheses from the peak that each vote has climbed to, densest first; of equal ones, as the votes are ordered.

@@ -75,12 +75,8 @@ class Recognizer {
   [[nodiscard]] const std::string& class_name(std::size_t object_class) const {
     return codebook_.classes[object_class];
   }
-  [[nodiscard]] const std::string& instance_name(std::size_t instance) const {
-    return codebook_.instances[instance].name;
-  }
-  [[nodiscard]] std::uint32_t class_of(std::size_t instance) const {
-    return codebook_.instances[instance].object_class;
-  }
+  [[nodiscard]] const std::string& instance_name(std::size_t instance) const { return codebook_.instances[instance]; }
+  [[nodiscard]] std::uint32_t class_of(std::size_t instance) const { return codebook_.class_of[instance]; }
 
   /// What the first training view's descriptors were, and how many values they had; empty and 0 before it.
   [[nodiscard]] const std::string& layout() const noexcept { return codebook_.layout; }

@@ -105,7 +105,7 @@ class Grid {
 
   template <class Neighbors>
   [[nodiscard, gnu::always_inline]] Status gather(const Contents& contents, const Point& center, Radius radius,
-                              Neighbors& out) const noexcept {
+                                                  Neighbors& out) const noexcept {
     clear(out, center);
     if (status() != Status::ok) return status();
     if (!is_finite(center)) return Status::ok;
