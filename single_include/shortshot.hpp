@@ -16,21 +16,94 @@
 // Macros of other headers (min, near, Status, ...) do no harm here, whether they come before it or after it. In your
 // own code they do what they always do.
 
-// clang-format off: in this order
+// clang-format off
 
-// shortshot/cloud/view_of.hpp: views of containers of structs, PCL's clouds among them, by their members' names.
-//
-// No other library is included: whatever has the members is understood. A point needs float x, y, z (in that or any
-// order, with any padding), for color one-byte r, g, b (in any order: PCL keeps b, g, r, a), and for a normal float
-// normal_x, normal_y, normal_z, which may also stand in structs of their own; for an intensity a float, a std::uint8_t
-// or a std::uint16_t of that name (pcl::PointXYZI).
-#ifndef SHORTSHOT_CLOUD_VIEW_OF_HPP
-#define SHORTSHOT_CLOUD_VIEW_OF_HPP
+// shortshot/macros_off.hpp: macros of other headers that are words here (X11, Windows, Arduino, Apple), set aside until
+// macros_on.hpp puts them back. No include guard: the umbrella includes both as often as it is included.
+
+#pragma push_macro("abs")
+#undef abs
+#pragma push_macro("round")
+#undef round
+#pragma push_macro("min")
+#undef min
+#pragma push_macro("max")
+#undef max
+#pragma push_macro("near")
+#undef near
+#pragma push_macro("far")
+#undef far
+#pragma push_macro("small")
+#undef small
+#pragma push_macro("check")
+#undef check
+#pragma push_macro("require")
+#undef require
+#pragma push_macro("verify")
+#undef verify
+#pragma push_macro("Status")
+#undef Status
+#pragma push_macro("Success")
+#undef Success
+#pragma push_macro("None")
+#undef None
+#pragma push_macro("Always")
+#undef Always
+#pragma push_macro("Bool")
+#undef Bool
+#pragma push_macro("True")
+#undef True
+#pragma push_macro("False")
+#undef False
+#pragma push_macro("Complex")
+#undef Complex
+#pragma push_macro("constrain")
+#undef constrain
+#pragma push_macro("radians")
+#undef radians
+#pragma push_macro("degrees")
+#undef degrees
+#pragma push_macro("sq")
+#undef sq
+#pragma push_macro("bit")
+#undef bit
+#pragma push_macro("word")
+#undef word
+#pragma push_macro("PI")
+#undef PI
+#pragma push_macro("DEFAULT")
+#undef DEFAULT
+#pragma push_macro("ERROR")
+#undef ERROR
+#pragma push_macro("OPTIONAL")
+#undef OPTIONAL
+#pragma push_macro("IN")
+#undef IN
+#pragma push_macro("OUT")
+#undef OUT
+#pragma push_macro("I")
+#undef I
+
+// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initializer, no
+// libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
+// <type_traits> and <utility> of the standard library.
+#ifndef SHORTSHOT_KERNEL_HPP
+#define SHORTSHOT_KERNEL_HPP
+
+// shortshot/frame/normal.hpp: the surface normal of a gathered neighborhood.
+#ifndef SHORTSHOT_FRAME_NORMAL_HPP
+#define SHORTSHOT_FRAME_NORMAL_HPP
 
 #include <cstddef>
-#include <iterator>
-#include <type_traits>
-#include <utility>
+#include <cstdint>
+
+// shortshot/base/fixed_point.hpp: sums that do not depend on their order.
+//
+// Float additions round, so a sum depends on the order of its terms: on the search that found the neighbors, on the
+// number of lanes, on the number of threads. Every sum over neighbors in this library adds numbers that were first
+// scaled by a power of two and rounded to integers: exact additions, the same bits whatever the order.
+#ifndef SHORTSHOT_BASE_FIXED_POINT_HPP
+#define SHORTSHOT_BASE_FIXED_POINT_HPP
 
 // shortshot/config.hpp: the macros the library sets. There is none for you to set: options are template parameters.
 //
@@ -138,534 +211,6 @@ using namespace extend;
 }
 }  // namespace shortshot
 #endif  // SHORTSHOT_CONFIG_HPP
-
-// shortshot/cloud/cloud.hpp: the only door for point clouds. A CloudView borrows the user's own memory, whatever its
-// layout.
-#ifndef SHORTSHOT_CLOUD_CLOUD_HPP
-#define SHORTSHOT_CLOUD_CLOUD_HPP
-
-#include <cstdint>
-#include <cstring>
-
-// shortshot/status.hpp: the one way in which the library reports that something is wrong.
-#ifndef SHORTSHOT_STATUS_HPP
-#define SHORTSHOT_STATUS_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// Result of every call that can fail. Whatever is not `ok` comes with a zeroed output, never with NaN.
-// (version 14 of it does not know attributes of enumerations)
-// clang-format off
-enum class [[nodiscard]] Status : std::uint8_t {
-  ok,
-  empty_cloud,         ///< the cloud has no point, or no point with three finite coordinates
-  bad_view,            ///< the view's memory cannot be what it says (null pointer, field outside the point, too short)
-  bad_radius,          ///< a radius is not a finite number above zero, or its square leaves the range of float
-  bad_keypoint,        ///< a key point's index lies outside the cloud
-  invalid_keypoint,    ///< a key point's position is not finite
-  missing_colors,      ///< the descriptor needs colors and the cloud has none
-  missing_normals,     ///< the descriptor needs normals and the cloud has none
-  too_few_neighbors,   ///< no neighbor to describe, or fewer than five for a local reference frame or for SHOT
-  too_many_neighbors,  ///< the neighborhood does not fit the workspace; Neighborhood::found says what it takes
-  ambiguous_frame,     ///< collinear or symmetric neighborhood: two principal axes cannot be told apart
-  bad_frame,           ///< a given frame is not orthonormal, or not finite
-  bad_viewpoint,       ///< a viewpoint is not finite
-  bad_leaf,            ///< a voxel size is not a finite number above zero
-  out_of_memory,       ///< caller-provided memory is too small for the cloud
-  not_organized,       ///< the cloud is no image of a pinhole camera, so it has no image window to search
-  bad_rows,            ///< rows of descriptors that do not fit each other, or null pointers
-  bad_option,          ///< an option is outside of the range that its docstring gives
-  too_few_pairs,       ///< fewer than three correspondences
-  no_pose,             ///< no rigid motion that at least three correspondences agree on
-  not_trained,         ///< the recognizer has no training view with a descriptor
-  not_a_model,         ///< the bytes are no recognizer's, or no features', whichever was asked for
-  other_version,       ///< the file was written by a version with another format
-  other_descriptor,    ///< descriptors of another layout than the recognizer or the file has
-  damaged_model,       ///< the file is truncated, or its checksum or contents are wrong
-  no_file,             ///< a file cannot be read or written
-  missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
-  unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
-};
-// clang-format on
-
-inline constexpr int status_count = static_cast<int>(Status::unsure_frame) + 1;
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
-/// One English sentence for a status. Static storage; never null.
-[[nodiscard]] constexpr const char* message(Status status) noexcept {
-  switch (status) {
-    case Status::ok: return "ok";
-    case Status::empty_cloud: return "the cloud has no valid point";
-    case Status::bad_view: return "the cloud view does not fit its memory";
-    case Status::bad_radius: return "a radius must be finite and above zero";
-    case Status::bad_keypoint: return "the key point's index lies outside the cloud";
-    case Status::invalid_keypoint: return "the key point is not finite";
-    case Status::missing_colors: return "the descriptor needs colors and the cloud has none";
-    case Status::missing_normals: return "the descriptor needs normals and the cloud has none";
-    case Status::too_few_neighbors: return "too few neighbors within the radius";
-    case Status::too_many_neighbors: return "more neighbors than the workspace can hold";
-    case Status::ambiguous_frame: return "the neighborhood is too symmetric for a local reference frame";
-    case Status::bad_frame: return "the given frame is not orthonormal";
-    case Status::bad_viewpoint: return "the viewpoint is not finite";
-    case Status::bad_leaf: return "a voxel size must be finite and above zero";
-    case Status::out_of_memory: return "the memory provided is too small";
-    case Status::not_organized: return "the cloud is not an image of a pinhole camera";
-    case Status::bad_rows: return "the rows of descriptors do not fit each other";
-    case Status::bad_option: return "an option is out of its range";
-    case Status::too_few_pairs: return "a pose takes three correspondences or more";
-    case Status::no_pose: return "no rigid motion fits three correspondences or more";
-    case Status::not_trained: return "the recognizer has no training view";
-    case Status::not_a_model: return "not a file of this kind";
-    case Status::other_version: return "the file's format is of another version";
-    case Status::other_descriptor: return "the file or the recognizer is of another descriptor";
-    case Status::damaged_model: return "the file is damaged";
-    case Status::no_file: return "the file cannot be read or written";
-    case Status::missing_intensities: return "the descriptor needs intensities and there are none";
-    case Status::unsure_frame: return "other key points have surer frames";
-  }
-  return "unknown status";
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_STATUS_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// Three float coordinates per point: where each one of point 0 lies, and how far it is to the same one of point 1.
-/// Covers x y z x y z ..., arrays of structs with padding, and separate x, y, z arrays. No alignment is assumed.
-struct Float3Channel {
-  const unsigned char* x;
-  const unsigned char* y;
-  const unsigned char* z;
-  std::size_t stride_bytes;
-};
-
-/// Three color bytes per point, sRGB. The three pointers express the order r g b, b g r (PCL, packed floats) or
-/// planes.
-struct ColorChannel {
-  const unsigned char* r;
-  const unsigned char* g;
-  const unsigned char* b;
-  std::size_t stride_bytes;
-};
-
-/// How the numbers of a ScalarChannel are stored.
-enum class ScalarType : std::uint8_t { float32, uint8, uint16 };
-
-/// One number per point, as the intensity of a lidar's or a time-of-flight camera's echo.
-struct ScalarChannel {
-  const unsigned char* value;
-  std::size_t stride_bytes;
-  ScalarType type;
-};
-
-/// What a descriptor may need of a cloud beyond its points; `own`: something that no view has, but the caller.
-enum class Channel : std::uint8_t { colors, normals, intensities, own };
-
-/// A borrowed point cloud: nothing is copied, nothing is owned, the memory must outlive the view.
-/// Positions in meters (any unit works if the radius has the same). Points that are not finite are never neighbors.
-/// A channel whose first pointer is null is absent. `width * height == size`; height is 1 for unorganized clouds.
-/// Trivial type with plain members, the same in every translation unit; reading it is thread-safe.
-struct CloudView {
-  Float3Channel points;
-  ColorChannel colors;
-  Float3Channel normals;
-  ScalarChannel intensities;
-  std::size_t size;
-  std::size_t width;
-  std::size_t height;
-};
-
-struct Point {
-  float x, y, z;
-};
-
-/// A surface normal: a unit vector, or NaN in all three where a point has none.
-struct SurfaceNormal {
-  float x, y, z;
-};
-
-/// An sRGB color.
-struct Rgb {
-  std::uint8_t r, g, b;
-};
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
-[[nodiscard]] inline bool has_colors(const CloudView& cloud) noexcept { return cloud.colors.r != nullptr; }
-[[nodiscard]] inline bool has_normals(const CloudView& cloud) noexcept { return cloud.normals.x != nullptr; }
-[[nodiscard]] inline bool has_intensities(const CloudView& cloud) noexcept {
-  return cloud.intensities.value != nullptr;
-}
-
-/// Is this a view that can be read at all? Every entry point asks once.
-[[nodiscard]] inline Status validate(const CloudView& cloud) noexcept {
-  if (cloud.size == 0) return Status::empty_cloud;
-  if (cloud.size > 0xFFFFFFFFu) return Status::bad_view;  // indices have 32 bits
-  if (cloud.points.x == nullptr || cloud.points.y == nullptr || cloud.points.z == nullptr) return Status::bad_view;
-  if (has_colors(cloud) && (cloud.colors.g == nullptr || cloud.colors.b == nullptr)) return Status::bad_view;
-  if (has_normals(cloud) && (cloud.normals.y == nullptr || cloud.normals.z == nullptr)) return Status::bad_view;
-  return Status::ok;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// A channel whose x, y and z follow each other by `step` bytes; absent if there is no memory.
-[[nodiscard]] inline Float3Channel float3_channel(const float* first, std::size_t step, std::size_t stride) noexcept {
-  if (first == nullptr) return {};
-  const auto* x = reinterpret_cast<const unsigned char*>(first);
-  return {x, x + step, x + 2 * step, stride};
-}
-
-[[nodiscard]] inline ColorChannel color_channel(const unsigned char* r, std::size_t step, std::size_t stride) noexcept {
-  if (r == nullptr) return {};
-  return {r, r + step, r + 2 * step, stride};
-}
-
-/// float32, uint8 or uint16: how a ScalarChannel reads a Scalar.
-template <class Scalar>
-inline constexpr bool is_channel_scalar =
-    std::is_same<Scalar, float>::value || std::is_same<Scalar, std::uint8_t>::value ||
-    std::is_same<Scalar, std::uint16_t>::value;
-
-template <class Scalar>
-[[nodiscard]] ScalarChannel scalar_channel(const Scalar* first, std::size_t stride) noexcept {
-  static_assert(is_channel_scalar<Scalar>, "Intensities are supported as float, std::uint8_t and std::uint16_t");
-  if (first == nullptr) return {};
-  return {reinterpret_cast<const unsigned char*>(first), stride,
-          sizeof(Scalar) == 4   ? ScalarType::float32
-          : sizeof(Scalar) == 2 ? ScalarType::uint16
-                                : ScalarType::uint8};
-}
-
-/// A view of nothing, and of more than nothing: bad_view everywhere.
-[[nodiscard]] inline CloudView unusable_view() noexcept {
-  CloudView view{};
-  view.size = 1;
-  return view;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// View of `count` points x y z (floats). `stride_bytes` is the distance between points.
-[[nodiscard]] inline CloudView view_xyz(const float* xyz, std::size_t count,
-                                        std::size_t stride_bytes = 3 * sizeof(float)) noexcept {
-  CloudView view{};
-  view.points = detail::float3_channel(xyz, sizeof(float), stride_bytes);
-  view.size = count;
-  view.width = count;
-  view.height = 1;
-  return view;
-}
-
-/// View of `count` points x y z (floats) and their colors r g b (bytes), each with its own stride.
-[[nodiscard]] inline CloudView view_xyz_rgb(const float* xyz, const std::uint8_t* rgb, std::size_t count,
-                                            std::size_t xyz_stride_bytes = 3 * sizeof(float),
-                                            std::size_t rgb_stride_bytes = 3) noexcept {
-  CloudView view = view_xyz(xyz, count, xyz_stride_bytes);
-  view.colors = detail::color_channel(rgb, 1, rgb_stride_bytes);
-  return view;
-}
-
-/// The same cloud with `cloud.size` normals x y z (floats), borrowed like the points. `stride_bytes` is the distance
-/// between normals.
-[[nodiscard]] inline CloudView with_normals(CloudView cloud, const SurfaceNormal* normals,
-                                            std::size_t stride_bytes = sizeof(SurfaceNormal)) noexcept {
-  cloud.normals = detail::float3_channel(normals == nullptr ? nullptr : &normals->x, sizeof(float), stride_bytes);
-  return cloud;
-}
-
-/// The same cloud with `cloud.size` intensities (float, std::uint8_t or std::uint16_t), borrowed like the points.
-/// `stride_bytes` is the distance between two of them.
-template <class Scalar>
-[[nodiscard]] CloudView with_intensities(CloudView cloud, const Scalar* intensities,
-                                         std::size_t stride_bytes = sizeof(Scalar)) noexcept {
-  cloud.intensities = detail::scalar_channel(intensities, stride_bytes);
-  return cloud;
-}
-
-/// The same cloud as an image of `width * height` pixels, row by row, for OrganizedSearch.
-[[nodiscard]] inline CloudView organized(CloudView cloud, std::size_t width, std::size_t height) noexcept {
-  cloud.width = width;
-  cloud.height = height;
-  return cloud;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_CLOUD_CLOUD_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-template <class P, class = void>
-struct HasRgb : std::false_type {};
-template <class P>
-struct HasRgb<P, std::void_t<decltype(P::r), decltype(P::g), decltype(P::b)>>
-    : std::bool_constant<sizeof(P::r) == 1 && sizeof(P::g) == 1 && sizeof(P::b) == 1> {};
-
-template <class P, class = void>
-struct HasNormal : std::false_type {};
-template <class P>
-struct HasNormal<P, std::void_t<decltype(P::normal_x), decltype(P::normal_y), decltype(P::normal_z)>>
-    : std::bool_constant<std::is_same<std::remove_cv_t<decltype(P::normal_x)>, float>::value &&
-                         std::is_same<std::remove_cv_t<decltype(P::normal_y)>, float>::value &&
-                         std::is_same<std::remove_cv_t<decltype(P::normal_z)>, float>::value> {};
-
-template <class P, class = void>
-struct HasIntensity : std::false_type {};
-template <class P>
-struct HasIntensity<P, std::void_t<decltype(P::intensity)>>
-    : std::bool_constant<is_channel_scalar<std::remove_cv_t<decltype(P::intensity)>>> {};
-
-template <class C, class = void>
-struct HasPoints : std::false_type {};
-template <class C>
-struct HasPoints<C, std::void_t<decltype(std::declval<const C&>().points.data())>> : std::true_type {};
-
-/// view_of()'s second argument is a container, unless it is a count.
-template <class C>
-using IfContainer = std::enable_if_t<!std::is_convertible<C, std::size_t>::value>;
-
-/// The structs in a container, or in the `points` of a pcl::PointCloud-shaped object.
-template <class C>
-[[nodiscard]] const auto& structs_of(const C& container) noexcept {
-  if constexpr (HasPoints<C>::value) {
-    return container.points;
-  } else {
-    return container;
-  }
-}
-
-template <class Member>
-[[nodiscard]] const unsigned char* bytes_of(const Member& member) noexcept {
-  return reinterpret_cast<const unsigned char*>(&member);
-}
-
-template <class P>
-[[nodiscard]] Float3Channel normals_of(const P* structs, std::size_t count) noexcept {
-  if (structs == nullptr || count == 0) return {};
-  return {bytes_of(structs->normal_x), bytes_of(structs->normal_y), bytes_of(structs->normal_z), sizeof(P)};
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// View of `count` structs with members x, y, z and, if they have them, r, g, b; normal_x, normal_y, normal_z; and
-/// intensity.
-template <class P>
-[[nodiscard]] CloudView view_of(const P* points, std::size_t count) noexcept {
-  static_assert(std::is_same<std::remove_cv_t<decltype(P::x)>, float>::value &&
-                    std::is_same<std::remove_cv_t<decltype(P::y)>, float>::value &&
-                    std::is_same<std::remove_cv_t<decltype(P::z)>, float>::value,
-                "view_of() supports points with float members x, y and z");
-  CloudView view{};
-  view.size = count;
-  view.width = count;
-  view.height = 1;
-  if (points == nullptr || count == 0) return view;  // to be refused by validate()
-  view.points = {detail::bytes_of(points->x), detail::bytes_of(points->y), detail::bytes_of(points->z), sizeof(P)};
-  if constexpr (detail::HasRgb<P>::value) {
-    view.colors = {detail::bytes_of(points->r), detail::bytes_of(points->g), detail::bytes_of(points->b), sizeof(P)};
-  }
-  if constexpr (detail::HasNormal<P>::value) view.normals = detail::normals_of(points, count);
-  if constexpr (detail::HasIntensity<P>::value) return with_intensities(view, &points->intensity, sizeof(P));
-  return view;
-}
-
-/// View of an array, a std::vector or anything else with data() and size(); or of a pcl::PointCloud-shaped object:
-/// `points` with data() and size(), and `width` and `height`.
-template <class Container>
-[[nodiscard]] CloudView view_of(const Container& cloud) noexcept {
-  const auto& structs = detail::structs_of(cloud);
-  const CloudView view = view_of(std::data(structs), std::size(structs));
-  if constexpr (detail::HasPoints<Container>::value) {
-    if (static_cast<std::size_t>(cloud.width) * cloud.height == view.size) {
-      return organized(view, cloud.width, cloud.height);
-    }
-  }
-  return view;
-}
-
-/// The same with normals from a second container of structs with members normal_x, normal_y, normal_z, such as a
-/// pcl::PointCloud<pcl::Normal>; normals that the points have themselves are not read. bad_view if the numbers of
-/// structs differ.
-template <class Container, class Normals, class = detail::IfContainer<Normals>>
-[[nodiscard]] CloudView view_of(const Container& cloud, const Normals& normals) noexcept {
-  const auto& structs = detail::structs_of(normals);
-  using Struct = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(structs))>>;
-  static_assert(detail::HasNormal<Struct>::value,
-                "view_of() supports normals with float members normal_x, normal_y and normal_z");
-  CloudView view = view_of(cloud);
-  if (std::size(structs) != view.size) return detail::unusable_view();
-  view.normals = detail::normals_of(std::data(structs), std::size(structs));
-  return view;
-}
-
-/// A container that dies at the end of the statement cannot be viewed.
-template <class Container>
-CloudView view_of(const Container&& cloud) = delete;
-template <class Container, class Normals, class = detail::IfContainer<Normals>>
-CloudView view_of(const Container&& cloud, const Normals& normals) = delete;
-template <class Container, class Normals, class = detail::IfContainer<Normals>>
-CloudView view_of(const Container& cloud, const Normals&& normals) = delete;
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_CLOUD_VIEW_OF_HPP
-
-// shortshot/cloud/view_point_cloud2.hpp: views of sensor_msgs/PointCloud2-shaped messages, without including ROS.
-#ifndef SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
-#define SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// PointField datatypes that can be read in place.
-inline constexpr int field_uint8 = 2;
-inline constexpr int field_uint16 = 4;
-inline constexpr int field_uint32 = 6;
-inline constexpr int field_float32 = 7;
-
-[[nodiscard]] inline bool is_little_endian() noexcept {
-  const std::uint16_t one = 1;
-  unsigned char first = 0;
-  std::memcpy(&first, &one, 1);
-  return first == 1;
-}
-
-template <class Name>
-[[nodiscard]] bool is_named(const Name& name, const char* text) noexcept {
-  return name == text;
-}
-
-/// Offset of a field with this name and a readable type, or -1.
-template <class Message>
-[[nodiscard]] std::int64_t offset_of(const Message& message, const char* name, bool packed_color) noexcept {
-  for (const auto& field : message.fields) {
-    if (!is_named(field.name, name)) continue;
-    const int type = static_cast<int>(field.datatype);
-    const bool readable = type == field_float32 || (packed_color && type == field_uint32);
-    const bool inside = static_cast<std::uint64_t>(field.offset) + 4 <= static_cast<std::uint64_t>(message.point_step);
-    return readable && inside ? static_cast<std::int64_t>(field.offset) : -1;
-  }
-  return -1;
-}
-
-/// The channel of a field `intensity` of FLOAT32, UINT8 or UINT16; absent if there is none.
-template <class Message>
-[[nodiscard]] ScalarChannel intensities_of(const Message& message, const unsigned char* data) noexcept {
-  for (const auto& field : message.fields) {
-    if (!is_named(field.name, "intensity")) continue;
-    const int type = static_cast<int>(field.datatype);
-    const bool readable = type == field_float32 || type == field_uint8 || type == field_uint16;
-    const std::uint64_t size_bytes = type == field_float32 ? 4 : type == field_uint16 ? 2 : 1;
-    const std::uint64_t end = static_cast<std::uint64_t>(field.offset) + size_bytes;
-    if (!readable || end > static_cast<std::uint64_t>(message.point_step)) return {};
-    const ScalarType scalar = type == field_float32  ? ScalarType::float32
-                              : type == field_uint16 ? ScalarType::uint16
-                                                     : ScalarType::uint8;
-    return {data + field.offset, static_cast<std::size_t>(message.point_step), scalar};
-  }
-  return {};
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// View of a message with members data (data(), size()), fields (name, offset, datatype), point_step, row_step, width,
-/// height and is_bigendian. Fields x, y, z must be FLOAT32; color is a field `rgb` or `rgba`, a FLOAT32 or UINT32 with
-/// 0xAARRGGBB packed into it; normals are FLOAT32 fields normal_x, normal_y, normal_z; an intensity is a FLOAT32,
-/// UINT8 or UINT16. The view borrows the message's bytes.
-///
-/// Statuses: empty_cloud (no point); bad_view (and an empty view): no x, y or z of that type, a field outside
-/// point_step, data shorter than width * height points, padded rows, or the other byte order. No allocation.
-template <class Message>
-[[nodiscard]] Status view_point_cloud2(const Message& message, CloudView& view) noexcept {
-  view = CloudView{};
-  const std::int64_t x = detail::offset_of(message, "x", false);
-  const std::int64_t y = detail::offset_of(message, "y", false);
-  const std::int64_t z = detail::offset_of(message, "z", false);
-  if (x < 0 || y < 0 || z < 0) return Status::bad_view;
-  if (static_cast<bool>(message.is_bigendian) == detail::is_little_endian()) return Status::bad_view;
-
-  const auto step = static_cast<std::size_t>(message.point_step);
-  const auto width = static_cast<std::size_t>(message.width);
-  const auto height = static_cast<std::size_t>(message.height);
-  if (height > 1 && static_cast<std::uint64_t>(message.row_step) != static_cast<std::uint64_t>(width) * step) {
-    return Status::bad_view;
-  }
-  if (width == 0 || height == 0) return Status::empty_cloud;
-  if (message.data.size() / step / width < height) return Status::bad_view;
-
-  const auto* data = reinterpret_cast<const unsigned char*>(message.data.data());
-  view.points = {data + x, data + y, data + z, step};
-  view.size = width * height;
-  view.width = width;
-  view.height = height;
-
-  std::int64_t color = detail::offset_of(message, "rgb", true);
-  if (color < 0) color = detail::offset_of(message, "rgba", true);
-  if (color >= 0) {
-    const unsigned char* packed = data + color;
-    const bool little = detail::is_little_endian();
-    view.colors = {packed + (little ? 2 : 1), packed + (little ? 1 : 2), packed + (little ? 0 : 3), step};
-  }
-  view.intensities = detail::intensities_of(message, data);
-  const std::int64_t normal_x = detail::offset_of(message, "normal_x", false);
-  const std::int64_t normal_y = detail::offset_of(message, "normal_y", false);
-  const std::int64_t normal_z = detail::offset_of(message, "normal_z", false);
-  if (normal_x >= 0 && normal_y >= 0 && normal_z >= 0) {
-    view.normals = {data + normal_x, data + normal_y, data + normal_z, step};
-  }
-  return Status::ok;
-}
-
-/// A message that dies at the end of the statement cannot be viewed.
-template <class Message>
-Status view_point_cloud2(const Message&& message, CloudView& view) = delete;
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
-
-// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initializer, no
-// libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
-// <type_traits> and <utility> of the standard library.
-#ifndef SHORTSHOT_KERNEL_HPP
-#define SHORTSHOT_KERNEL_HPP
-
-// shortshot/frame/normal.hpp: the surface normal of a gathered neighborhood.
-#ifndef SHORTSHOT_FRAME_NORMAL_HPP
-#define SHORTSHOT_FRAME_NORMAL_HPP
-
-// shortshot/base/fixed_point.hpp: sums that do not depend on their order.
-//
-// Float additions round, so a sum depends on the order of its terms: on the search that found the neighbors, on the
-// number of lanes, on the number of threads. Every sum over neighbors in this library adds numbers that were first
-// scaled by a power of two and rounded to integers: exact additions, the same bits whatever the order.
-#ifndef SHORTSHOT_BASE_FIXED_POINT_HPP
-#define SHORTSHOT_BASE_FIXED_POINT_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -1281,6 +826,8 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
 #ifndef SHORTSHOT_BASE_SIMD_SCALAR_HPP
 #define SHORTSHOT_BASE_SIMD_SCALAR_HPP
 
+#include <cstring>
+
 namespace shortshot::extend::simd {
 inline namespace SHORTSHOT_CODE {
 
@@ -1483,6 +1030,9 @@ template <class Function>
 #ifndef SHORTSHOT_BASE_UNROLL_HPP
 #define SHORTSHOT_BASE_UNROLL_HPP
 
+#include <type_traits>
+#include <utility>
+
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
@@ -1661,6 +1211,275 @@ template <int N = 3>
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_BASE_SYMMETRIC_EIGEN_HPP
+
+// shortshot/cloud/cloud.hpp: the only door for point clouds. A CloudView borrows the user's own memory, whatever its
+// layout.
+#ifndef SHORTSHOT_CLOUD_CLOUD_HPP
+#define SHORTSHOT_CLOUD_CLOUD_HPP
+
+#include <cstring>
+
+// shortshot/status.hpp: the one way in which the library reports that something is wrong.
+#ifndef SHORTSHOT_STATUS_HPP
+#define SHORTSHOT_STATUS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// Result of every call that can fail. Whatever is not `ok` comes with a zeroed output, never with NaN.
+// (version 14 of it does not know attributes of enumerations)
+// clang-format off
+enum class [[nodiscard]] Status : std::uint8_t {
+  ok,
+  empty_cloud,         ///< the cloud has no point, or no point with three finite coordinates
+  bad_view,            ///< the view's memory cannot be what it says (null pointer, field outside the point, too short)
+  bad_radius,          ///< a radius is not a finite number above zero, or its square leaves the range of float
+  bad_keypoint,        ///< a key point's index lies outside the cloud
+  invalid_keypoint,    ///< a key point's position is not finite
+  missing_colors,      ///< the descriptor needs colors and the cloud has none
+  missing_normals,     ///< the descriptor needs normals and the cloud has none
+  too_few_neighbors,   ///< no neighbor to describe, or fewer than five for a local reference frame or for SHOT
+  too_many_neighbors,  ///< the neighborhood does not fit the workspace; Neighborhood::found says what it takes
+  ambiguous_frame,     ///< collinear or symmetric neighborhood: two principal axes cannot be told apart
+  bad_frame,           ///< a given frame is not orthonormal, or not finite
+  bad_viewpoint,       ///< a viewpoint is not finite
+  bad_leaf,            ///< a voxel size is not a finite number above zero
+  out_of_memory,       ///< caller-provided memory is too small for the cloud
+  not_organized,       ///< the cloud is no image of a pinhole camera, so it has no image window to search
+  bad_rows,            ///< rows of descriptors that do not fit each other, or null pointers
+  bad_option,          ///< an option is outside of the range that its docstring gives
+  too_few_pairs,       ///< fewer than three correspondences
+  no_pose,             ///< no rigid motion that at least three correspondences agree on
+  not_trained,         ///< the recognizer has no training view with a descriptor
+  not_a_model,         ///< the bytes are no recognizer's, or no features', whichever was asked for
+  other_version,       ///< the file was written by a version with another format
+  other_descriptor,    ///< descriptors of another layout than the recognizer or the file has
+  damaged_model,       ///< the file is truncated, or its checksum or contents are wrong
+  no_file,             ///< a file cannot be read or written
+  missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
+  unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
+};
+// clang-format on
+
+inline constexpr int status_count = static_cast<int>(Status::unsure_frame) + 1;
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// One English sentence for a status. Static storage; never null.
+[[nodiscard]] constexpr const char* message(Status status) noexcept {
+  switch (status) {
+    case Status::ok: return "ok";
+    case Status::empty_cloud: return "the cloud has no valid point";
+    case Status::bad_view: return "the cloud view does not fit its memory";
+    case Status::bad_radius: return "a radius must be finite and above zero";
+    case Status::bad_keypoint: return "the key point's index lies outside the cloud";
+    case Status::invalid_keypoint: return "the key point is not finite";
+    case Status::missing_colors: return "the descriptor needs colors and the cloud has none";
+    case Status::missing_normals: return "the descriptor needs normals and the cloud has none";
+    case Status::too_few_neighbors: return "too few neighbors within the radius";
+    case Status::too_many_neighbors: return "more neighbors than the workspace can hold";
+    case Status::ambiguous_frame: return "the neighborhood is too symmetric for a local reference frame";
+    case Status::bad_frame: return "the given frame is not orthonormal";
+    case Status::bad_viewpoint: return "the viewpoint is not finite";
+    case Status::bad_leaf: return "a voxel size must be finite and above zero";
+    case Status::out_of_memory: return "the memory provided is too small";
+    case Status::not_organized: return "the cloud is not an image of a pinhole camera";
+    case Status::bad_rows: return "the rows of descriptors do not fit each other";
+    case Status::bad_option: return "an option is out of its range";
+    case Status::too_few_pairs: return "a pose takes three correspondences or more";
+    case Status::no_pose: return "no rigid motion fits three correspondences or more";
+    case Status::not_trained: return "the recognizer has no training view";
+    case Status::not_a_model: return "not a file of this kind";
+    case Status::other_version: return "the file's format is of another version";
+    case Status::other_descriptor: return "the file or the recognizer is of another descriptor";
+    case Status::damaged_model: return "the file is damaged";
+    case Status::no_file: return "the file cannot be read or written";
+    case Status::missing_intensities: return "the descriptor needs intensities and there are none";
+    case Status::unsure_frame: return "other key points have surer frames";
+  }
+  return "unknown status";
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_STATUS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// Three float coordinates per point: where each one of point 0 lies, and how far it is to the same one of point 1.
+/// Covers x y z x y z ..., arrays of structs with padding, and separate x, y, z arrays. No alignment is assumed.
+struct Float3Channel {
+  const unsigned char* x;
+  const unsigned char* y;
+  const unsigned char* z;
+  std::size_t stride_bytes;
+};
+
+/// Three color bytes per point, sRGB. The three pointers express the order r g b, b g r (PCL, packed floats) or
+/// planes.
+struct ColorChannel {
+  const unsigned char* r;
+  const unsigned char* g;
+  const unsigned char* b;
+  std::size_t stride_bytes;
+};
+
+/// How the numbers of a ScalarChannel are stored.
+enum class ScalarType : std::uint8_t { float32, uint8, uint16 };
+
+/// One number per point, as the intensity of a lidar's or a time-of-flight camera's echo.
+struct ScalarChannel {
+  const unsigned char* value;
+  std::size_t stride_bytes;
+  ScalarType type;
+};
+
+/// What a descriptor may need of a cloud beyond its points; `own`: something that no view has, but the caller.
+enum class Channel : std::uint8_t { colors, normals, intensities, own };
+
+/// A borrowed point cloud: nothing is copied, nothing is owned, the memory must outlive the view.
+/// Positions in meters (any unit works if the radius has the same). Points that are not finite are never neighbors.
+/// A channel whose first pointer is null is absent. `width * height == size`; height is 1 for unorganized clouds.
+/// Trivial type with plain members, the same in every translation unit; reading it is thread-safe.
+struct CloudView {
+  Float3Channel points;
+  ColorChannel colors;
+  Float3Channel normals;
+  ScalarChannel intensities;
+  std::size_t size;
+  std::size_t width;
+  std::size_t height;
+};
+
+struct Point {
+  float x, y, z;
+};
+
+/// A surface normal: a unit vector, or NaN in all three where a point has none.
+struct SurfaceNormal {
+  float x, y, z;
+};
+
+/// An sRGB color.
+struct Rgb {
+  std::uint8_t r, g, b;
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+[[nodiscard]] inline bool has_colors(const CloudView& cloud) noexcept { return cloud.colors.r != nullptr; }
+[[nodiscard]] inline bool has_normals(const CloudView& cloud) noexcept { return cloud.normals.x != nullptr; }
+[[nodiscard]] inline bool has_intensities(const CloudView& cloud) noexcept {
+  return cloud.intensities.value != nullptr;
+}
+
+/// Is this a view that can be read at all? Every entry point asks once.
+[[nodiscard]] inline Status validate(const CloudView& cloud) noexcept {
+  if (cloud.size == 0) return Status::empty_cloud;
+  if (cloud.size > 0xFFFFFFFFu) return Status::bad_view;  // indices have 32 bits
+  if (cloud.points.x == nullptr || cloud.points.y == nullptr || cloud.points.z == nullptr) return Status::bad_view;
+  if (has_colors(cloud) && (cloud.colors.g == nullptr || cloud.colors.b == nullptr)) return Status::bad_view;
+  if (has_normals(cloud) && (cloud.normals.y == nullptr || cloud.normals.z == nullptr)) return Status::bad_view;
+  return Status::ok;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// A channel whose x, y and z follow each other by `step` bytes; absent if there is no memory.
+[[nodiscard]] inline Float3Channel float3_channel(const float* first, std::size_t step, std::size_t stride) noexcept {
+  if (first == nullptr) return {};
+  const auto* x = reinterpret_cast<const unsigned char*>(first);
+  return {x, x + step, x + 2 * step, stride};
+}
+
+[[nodiscard]] inline ColorChannel color_channel(const unsigned char* r, std::size_t step, std::size_t stride) noexcept {
+  if (r == nullptr) return {};
+  return {r, r + step, r + 2 * step, stride};
+}
+
+/// float32, uint8 or uint16: how a ScalarChannel reads a Scalar.
+template <class Scalar>
+inline constexpr bool is_channel_scalar =
+    std::is_same<Scalar, float>::value || std::is_same<Scalar, std::uint8_t>::value ||
+    std::is_same<Scalar, std::uint16_t>::value;
+
+template <class Scalar>
+[[nodiscard]] ScalarChannel scalar_channel(const Scalar* first, std::size_t stride) noexcept {
+  static_assert(is_channel_scalar<Scalar>, "Intensities are supported as float, std::uint8_t and std::uint16_t");
+  if (first == nullptr) return {};
+  return {reinterpret_cast<const unsigned char*>(first), stride,
+          sizeof(Scalar) == 4   ? ScalarType::float32
+          : sizeof(Scalar) == 2 ? ScalarType::uint16
+                                : ScalarType::uint8};
+}
+
+/// A view of nothing, and of more than nothing: bad_view everywhere.
+[[nodiscard]] inline CloudView unusable_view() noexcept {
+  CloudView view{};
+  view.size = 1;
+  return view;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// View of `count` points x y z (floats). `stride_bytes` is the distance between points.
+[[nodiscard]] inline CloudView view_xyz(const float* xyz, std::size_t count,
+                                        std::size_t stride_bytes = 3 * sizeof(float)) noexcept {
+  CloudView view{};
+  view.points = detail::float3_channel(xyz, sizeof(float), stride_bytes);
+  view.size = count;
+  view.width = count;
+  view.height = 1;
+  return view;
+}
+
+/// View of `count` points x y z (floats) and their colors r g b (bytes), each with its own stride.
+[[nodiscard]] inline CloudView view_xyz_rgb(const float* xyz, const std::uint8_t* rgb, std::size_t count,
+                                            std::size_t xyz_stride_bytes = 3 * sizeof(float),
+                                            std::size_t rgb_stride_bytes = 3) noexcept {
+  CloudView view = view_xyz(xyz, count, xyz_stride_bytes);
+  view.colors = detail::color_channel(rgb, 1, rgb_stride_bytes);
+  return view;
+}
+
+/// The same cloud with `cloud.size` normals x y z (floats), borrowed like the points. `stride_bytes` is the distance
+/// between normals.
+[[nodiscard]] inline CloudView with_normals(CloudView cloud, const SurfaceNormal* normals,
+                                            std::size_t stride_bytes = sizeof(SurfaceNormal)) noexcept {
+  cloud.normals = detail::float3_channel(normals == nullptr ? nullptr : &normals->x, sizeof(float), stride_bytes);
+  return cloud;
+}
+
+/// The same cloud with `cloud.size` intensities (float, std::uint8_t or std::uint16_t), borrowed like the points.
+/// `stride_bytes` is the distance between two of them.
+template <class Scalar>
+[[nodiscard]] CloudView with_intensities(CloudView cloud, const Scalar* intensities,
+                                         std::size_t stride_bytes = sizeof(Scalar)) noexcept {
+  cloud.intensities = detail::scalar_channel(intensities, stride_bytes);
+  return cloud;
+}
+
+/// The same cloud as an image of `width * height` pixels, row by row, for OrganizedSearch.
+[[nodiscard]] inline CloudView organized(CloudView cloud, std::size_t width, std::size_t height) noexcept {
+  cloud.width = width;
+  cloud.height = height;
+  return cloud;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_CLOUD_CLOUD_HPP
 
 // shortshot/cloud/point_lanes.hpp: the points of one register.
 #ifndef SHORTSHOT_CLOUD_POINT_LANES_HPP
@@ -6588,84 +6407,264 @@ template <class D>
 #endif  // SHORTSHOT_STORE_QUANTIZE_HPP
 #endif  // SHORTSHOT_KERNEL_HPP
 
-// shortshot/macros_off.hpp: macros of other headers that are words here (X11, Windows, Arduino, Apple), set aside until
-// macros_on.hpp puts them back. No include guard: the umbrella includes both as often as it is included.
+// shortshot/cloud/view_of.hpp: views of containers of structs, PCL's clouds among them, by their members' names.
+//
+// No other library is included: whatever has the members is understood. A point needs float x, y, z (in that or any
+// order, with any padding), for color one-byte r, g, b (in any order: PCL keeps b, g, r, a), and for a normal float
+// normal_x, normal_y, normal_z, which may also stand in structs of their own; for an intensity a float, a std::uint8_t
+// or a std::uint16_t of that name (pcl::PointXYZI).
+#ifndef SHORTSHOT_CLOUD_VIEW_OF_HPP
+#define SHORTSHOT_CLOUD_VIEW_OF_HPP
 
-#pragma push_macro("abs")
-#undef abs
-#pragma push_macro("round")
-#undef round
-#pragma push_macro("min")
-#undef min
-#pragma push_macro("max")
-#undef max
-#pragma push_macro("near")
-#undef near
-#pragma push_macro("far")
-#undef far
-#pragma push_macro("small")
-#undef small
-#pragma push_macro("check")
-#undef check
-#pragma push_macro("require")
-#undef require
-#pragma push_macro("verify")
-#undef verify
-#pragma push_macro("Status")
-#undef Status
-#pragma push_macro("Success")
-#undef Success
-#pragma push_macro("None")
-#undef None
-#pragma push_macro("Always")
-#undef Always
-#pragma push_macro("Bool")
-#undef Bool
-#pragma push_macro("True")
-#undef True
-#pragma push_macro("False")
-#undef False
-#pragma push_macro("Complex")
-#undef Complex
-#pragma push_macro("constrain")
-#undef constrain
-#pragma push_macro("radians")
-#undef radians
-#pragma push_macro("degrees")
-#undef degrees
-#pragma push_macro("sq")
-#undef sq
-#pragma push_macro("bit")
-#undef bit
-#pragma push_macro("word")
-#undef word
-#pragma push_macro("PI")
-#undef PI
-#pragma push_macro("DEFAULT")
-#undef DEFAULT
-#pragma push_macro("ERROR")
-#undef ERROR
-#pragma push_macro("OPTIONAL")
-#undef OPTIONAL
-#pragma push_macro("IN")
-#undef IN
-#pragma push_macro("OUT")
-#undef OUT
-#pragma push_macro("I")
-#undef I
+#include <iterator>
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+template <class P, class = void>
+struct HasRgb : std::false_type {};
+template <class P>
+struct HasRgb<P, std::void_t<decltype(P::r), decltype(P::g), decltype(P::b)>>
+    : std::bool_constant<sizeof(P::r) == 1 && sizeof(P::g) == 1 && sizeof(P::b) == 1> {};
+
+template <class P, class = void>
+struct HasNormal : std::false_type {};
+template <class P>
+struct HasNormal<P, std::void_t<decltype(P::normal_x), decltype(P::normal_y), decltype(P::normal_z)>>
+    : std::bool_constant<std::is_same<std::remove_cv_t<decltype(P::normal_x)>, float>::value &&
+                         std::is_same<std::remove_cv_t<decltype(P::normal_y)>, float>::value &&
+                         std::is_same<std::remove_cv_t<decltype(P::normal_z)>, float>::value> {};
+
+template <class P, class = void>
+struct HasIntensity : std::false_type {};
+template <class P>
+struct HasIntensity<P, std::void_t<decltype(P::intensity)>>
+    : std::bool_constant<is_channel_scalar<std::remove_cv_t<decltype(P::intensity)>>> {};
+
+template <class C, class = void>
+struct HasPoints : std::false_type {};
+template <class C>
+struct HasPoints<C, std::void_t<decltype(std::declval<const C&>().points.data())>> : std::true_type {};
+
+/// view_of()'s second argument is a container, unless it is a count.
+template <class C>
+using IfContainer = std::enable_if_t<!std::is_convertible<C, std::size_t>::value>;
+
+/// The structs in a container, or in the `points` of a pcl::PointCloud-shaped object.
+template <class C>
+[[nodiscard]] const auto& structs_of(const C& container) noexcept {
+  if constexpr (HasPoints<C>::value) {
+    return container.points;
+  } else {
+    return container;
+  }
+}
+
+template <class Member>
+[[nodiscard]] const unsigned char* bytes_of(const Member& member) noexcept {
+  return reinterpret_cast<const unsigned char*>(&member);
+}
+
+template <class P>
+[[nodiscard]] Float3Channel normals_of(const P* structs, std::size_t count) noexcept {
+  if (structs == nullptr || count == 0) return {};
+  return {bytes_of(structs->normal_x), bytes_of(structs->normal_y), bytes_of(structs->normal_z), sizeof(P)};
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// View of `count` structs with members x, y, z and, if they have them, r, g, b; normal_x, normal_y, normal_z; and
+/// intensity.
+template <class P>
+[[nodiscard]] CloudView view_of(const P* points, std::size_t count) noexcept {
+  static_assert(std::is_same<std::remove_cv_t<decltype(P::x)>, float>::value &&
+                    std::is_same<std::remove_cv_t<decltype(P::y)>, float>::value &&
+                    std::is_same<std::remove_cv_t<decltype(P::z)>, float>::value,
+                "view_of() supports points with float members x, y and z");
+  CloudView view{};
+  view.size = count;
+  view.width = count;
+  view.height = 1;
+  if (points == nullptr || count == 0) return view;  // to be refused by validate()
+  view.points = {detail::bytes_of(points->x), detail::bytes_of(points->y), detail::bytes_of(points->z), sizeof(P)};
+  if constexpr (detail::HasRgb<P>::value) {
+    view.colors = {detail::bytes_of(points->r), detail::bytes_of(points->g), detail::bytes_of(points->b), sizeof(P)};
+  }
+  if constexpr (detail::HasNormal<P>::value) view.normals = detail::normals_of(points, count);
+  if constexpr (detail::HasIntensity<P>::value) return with_intensities(view, &points->intensity, sizeof(P));
+  return view;
+}
+
+/// View of an array, a std::vector or anything else with data() and size(); or of a pcl::PointCloud-shaped object:
+/// `points` with data() and size(), and `width` and `height`.
+template <class Container>
+[[nodiscard]] CloudView view_of(const Container& cloud) noexcept {
+  const auto& structs = detail::structs_of(cloud);
+  const CloudView view = view_of(std::data(structs), std::size(structs));
+  if constexpr (detail::HasPoints<Container>::value) {
+    if (static_cast<std::size_t>(cloud.width) * cloud.height == view.size) {
+      return organized(view, cloud.width, cloud.height);
+    }
+  }
+  return view;
+}
+
+/// The same with normals from a second container of structs with members normal_x, normal_y, normal_z, such as a
+/// pcl::PointCloud<pcl::Normal>; normals that the points have themselves are not read. bad_view if the numbers of
+/// structs differ.
+template <class Container, class Normals, class = detail::IfContainer<Normals>>
+[[nodiscard]] CloudView view_of(const Container& cloud, const Normals& normals) noexcept {
+  const auto& structs = detail::structs_of(normals);
+  using Struct = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(structs))>>;
+  static_assert(detail::HasNormal<Struct>::value,
+                "view_of() supports normals with float members normal_x, normal_y and normal_z");
+  CloudView view = view_of(cloud);
+  if (std::size(structs) != view.size) return detail::unusable_view();
+  view.normals = detail::normals_of(std::data(structs), std::size(structs));
+  return view;
+}
+
+/// A container that dies at the end of the statement cannot be viewed.
+template <class Container>
+CloudView view_of(const Container&& cloud) = delete;
+template <class Container, class Normals, class = detail::IfContainer<Normals>>
+CloudView view_of(const Container&& cloud, const Normals& normals) = delete;
+template <class Container, class Normals, class = detail::IfContainer<Normals>>
+CloudView view_of(const Container& cloud, const Normals&& normals) = delete;
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_CLOUD_VIEW_OF_HPP
+
+// shortshot/cloud/view_point_cloud2.hpp: views of sensor_msgs/PointCloud2-shaped messages, without including ROS.
+#ifndef SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
+#define SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// PointField datatypes that can be read in place.
+inline constexpr int field_uint8 = 2;
+inline constexpr int field_uint16 = 4;
+inline constexpr int field_uint32 = 6;
+inline constexpr int field_float32 = 7;
+
+[[nodiscard]] inline bool is_little_endian() noexcept {
+  const std::uint16_t one = 1;
+  unsigned char first = 0;
+  std::memcpy(&first, &one, 1);
+  return first == 1;
+}
+
+template <class Name>
+[[nodiscard]] bool is_named(const Name& name, const char* text) noexcept {
+  return name == text;
+}
+
+/// Offset of a field with this name and a readable type, or -1.
+template <class Message>
+[[nodiscard]] std::int64_t offset_of(const Message& message, const char* name, bool packed_color) noexcept {
+  for (const auto& field : message.fields) {
+    if (!is_named(field.name, name)) continue;
+    const int type = static_cast<int>(field.datatype);
+    const bool readable = type == field_float32 || (packed_color && type == field_uint32);
+    const bool inside = static_cast<std::uint64_t>(field.offset) + 4 <= static_cast<std::uint64_t>(message.point_step);
+    return readable && inside ? static_cast<std::int64_t>(field.offset) : -1;
+  }
+  return -1;
+}
+
+/// The channel of a field `intensity` of FLOAT32, UINT8 or UINT16; absent if there is none.
+template <class Message>
+[[nodiscard]] ScalarChannel intensities_of(const Message& message, const unsigned char* data) noexcept {
+  for (const auto& field : message.fields) {
+    if (!is_named(field.name, "intensity")) continue;
+    const int type = static_cast<int>(field.datatype);
+    const bool readable = type == field_float32 || type == field_uint8 || type == field_uint16;
+    const std::uint64_t size_bytes = type == field_float32 ? 4 : type == field_uint16 ? 2 : 1;
+    const std::uint64_t end = static_cast<std::uint64_t>(field.offset) + size_bytes;
+    if (!readable || end > static_cast<std::uint64_t>(message.point_step)) return {};
+    const ScalarType scalar = type == field_float32  ? ScalarType::float32
+                              : type == field_uint16 ? ScalarType::uint16
+                                                     : ScalarType::uint8;
+    return {data + field.offset, static_cast<std::size_t>(message.point_step), scalar};
+  }
+  return {};
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// View of a message with members data (data(), size()), fields (name, offset, datatype), point_step, row_step, width,
+/// height and is_bigendian. Fields x, y, z must be FLOAT32; color is a field `rgb` or `rgba`, a FLOAT32 or UINT32 with
+/// 0xAARRGGBB packed into it; normals are FLOAT32 fields normal_x, normal_y, normal_z; an intensity is a FLOAT32,
+/// UINT8 or UINT16. The view borrows the message's bytes.
+///
+/// Statuses: empty_cloud (no point); bad_view (and an empty view): no x, y or z of that type, a field outside
+/// point_step, data shorter than width * height points, padded rows, or the other byte order. No allocation.
+template <class Message>
+[[nodiscard]] Status view_point_cloud2(const Message& message, CloudView& view) noexcept {
+  view = CloudView{};
+  const std::int64_t x = detail::offset_of(message, "x", false);
+  const std::int64_t y = detail::offset_of(message, "y", false);
+  const std::int64_t z = detail::offset_of(message, "z", false);
+  if (x < 0 || y < 0 || z < 0) return Status::bad_view;
+  if (static_cast<bool>(message.is_bigendian) == detail::is_little_endian()) return Status::bad_view;
+
+  const auto step = static_cast<std::size_t>(message.point_step);
+  const auto width = static_cast<std::size_t>(message.width);
+  const auto height = static_cast<std::size_t>(message.height);
+  if (height > 1 && static_cast<std::uint64_t>(message.row_step) != static_cast<std::uint64_t>(width) * step) {
+    return Status::bad_view;
+  }
+  if (width == 0 || height == 0) return Status::empty_cloud;
+  if (message.data.size() / step / width < height) return Status::bad_view;
+
+  const auto* data = reinterpret_cast<const unsigned char*>(message.data.data());
+  view.points = {data + x, data + y, data + z, step};
+  view.size = width * height;
+  view.width = width;
+  view.height = height;
+
+  std::int64_t color = detail::offset_of(message, "rgb", true);
+  if (color < 0) color = detail::offset_of(message, "rgba", true);
+  if (color >= 0) {
+    const unsigned char* packed = data + color;
+    const bool little = detail::is_little_endian();
+    view.colors = {packed + (little ? 2 : 1), packed + (little ? 1 : 2), packed + (little ? 0 : 3), step};
+  }
+  view.intensities = detail::intensities_of(message, data);
+  const std::int64_t normal_x = detail::offset_of(message, "normal_x", false);
+  const std::int64_t normal_y = detail::offset_of(message, "normal_y", false);
+  const std::int64_t normal_z = detail::offset_of(message, "normal_z", false);
+  if (normal_x >= 0 && normal_y >= 0 && normal_z >= 0) {
+    view.normals = {data + normal_x, data + normal_y, data + normal_z, step};
+  }
+  return Status::ok;
+}
+
+/// A message that dies at the end of the statement cannot be viewed.
+template <class Message>
+Status view_point_cloud2(const Message&& message, CloudView& view) = delete;
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
 
 #if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
-
-// shortshot/batch/describe_cloud.hpp: a whole cloud in one call: key points, search, frames, descriptors. Hosted only:
-// allocates, starts threads.
-#ifndef SHORTSHOT_BATCH_DESCRIBE_CLOUD_HPP
-#define SHORTSHOT_BATCH_DESCRIBE_CLOUD_HPP
-
-#include <vector>
 
 // shortshot/search/grid_search.hpp: the fixed-radius grid with memory of its own. Hosted only: build allocates.
 #ifndef SHORTSHOT_SEARCH_GRID_SEARCH_HPP
 #define SHORTSHOT_SEARCH_GRID_SEARCH_HPP
+
+#include <vector>
 
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
@@ -6726,271 +6725,73 @@ class GridSearch {
 }  // namespace shortshot
 #endif  // SHORTSHOT_SEARCH_GRID_SEARCH_HPP
 
-// shortshot/batch/extractor.hpp: many key points at once, with memory that is used again for the next cloud. Hosted
-// only: allocates, starts threads.
-#ifndef SHORTSHOT_BATCH_EXTRACTOR_HPP
-#define SHORTSHOT_BATCH_EXTRACTOR_HPP
+// shortshot/descriptor/layout_text.hpp: what the values of a descriptor mean, as text: for files, and for code that
+// knows descriptors only at run time. Hosted only: allocates.
+#ifndef SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
+#define SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
 
-#include <algorithm>
-
-// shortshot/color/lab_table.hpp: sRGB bytes -> CIELAB by a table of roots, for whole clouds. Hosted only: allocates.
-#ifndef SHORTSHOT_COLOR_LAB_TABLE_HPP
-#define SHORTSHOT_COLOR_LAB_TABLE_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// What to_lab<Rule>() gives, bit for bit: the roots are the same ones, taken once for each of the 4001 steps that a
-/// ratio can have. 16 KB; filling it costs as much as to_lab() of 1300 colors.
-template <class Rule>
-class LabTable {
- public:
-  /// To be called before the first color; does nothing where it was called before. May throw std::bad_alloc.
-  void fill() {
-    if (!roots_.empty()) return;
-    roots_.reserve(detail::last_ratio_step + 1);
-    for (int step = 0; step <= detail::last_ratio_step; ++step) roots_.push_back(detail::root_of_step<Rule>(step));
-  }
-
-  [[nodiscard]] Lab operator()(Rgb color) const noexcept {
-    Lab lab;
-    detail::lab_by<Rule>([roots = roots_.data()](int step) { return roots[step]; }, color, lab);
-    return lab;
-  }
-
- private:
-  std::vector<float> roots_;
-};
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_COLOR_LAB_TABLE_HPP
-
-// shortshot/batch/executor.hpp: who does extract()'s work: threads started for one call, or an executor of the
-// caller's. Hosted only.
-#ifndef SHORTSHOT_BATCH_EXECUTOR_HPP
-#define SHORTSHOT_BATCH_EXECUTOR_HPP
-
-#include <atomic>
-#include <thread>
+#include <string>
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// The executor that a plain number of threads stands for. One of them is the caller's; the others are started and
-/// joined by each run().
-class StartedThreads {
- public:
-  explicit StartedThreads(std::size_t threads) noexcept : threads_(threads) {}
-  [[nodiscard]] std::size_t threads() const noexcept { return threads_; }
+template <class Policy, class = void>
+struct HasName : std::false_type {};
+template <class Policy>
+struct HasName<Policy, std::void_t<decltype(std::string(Policy::name))>> : std::true_type {};
 
-  template <class Work>
-  void run(const Work& work) const {
-    run_erased([](const void* erased) { (*static_cast<const Work*>(erased))(); }, &work);
-  }
-
- private:
-  /// Compiled once for all work: std::thread and a vector of them take a compiler their time.
-  void run_erased(void (*call)(const void* work), const void* work) const {
-    struct Threads : std::vector<std::thread> {
-      ~Threads() {  // also when one more thread cannot be started: those that run finish the work
-        for (std::thread& thread : *this) thread.join();
-      }
-    } others;
-    others.reserve(threads_ - 1);
-    for (std::size_t t = 1; t < threads_; ++t) others.emplace_back(call, work);
-    call(work);
-  }
-
-  std::size_t threads_;
-};
-
-struct NoWork {
-  void operator()() const noexcept {}
-};
-
-template <class T, class = void>
-struct IsExecutor : std::false_type {};
-template <class T>
-struct IsExecutor<T, std::void_t<decltype(static_cast<std::size_t>(std::declval<T&>().threads())),
-                                 decltype(std::declval<T&>().run(NoWork{}))>> : std::true_type {};
-
-/// The executor meant by `threads`; a number is cut to what `blocks` of work can keep busy.
-template <class Threads>
-[[nodiscard]] decltype(auto) executor_of(Threads& threads, std::size_t blocks) {
-  constexpr bool is_number = std::is_integral<Threads>::value;
-  static_assert(
-      is_number || IsExecutor<Threads>::value,
-      "extract() and estimate_normals() support a number of threads, or an executor with threads() and run(work)");
-  if constexpr (is_number) {
-    const std::size_t wanted = threads > 0 ? static_cast<std::size_t>(threads) : 1;
-    return StartedThreads(std::max<std::size_t>(1, std::min(wanted, blocks)));
-  } else {
-    return (threads);
-  }
+// Called, not inlined: text is put together from many pieces, and a compiler would take its time for each.
+[[gnu::noinline]] inline void add(std::string& text, const char* more) { text += more; }
+[[gnu::noinline]] inline void add(std::string& text, int number) { text += std::to_string(number); }
+template <class... Pieces>
+void add_all(std::string& text, Pieces... pieces) {
+  (add(text, pieces), ...);
 }
 
-/// Blocks of [0, count), to be taken one after the other by whoever is free.
-class Blocks {
- public:
-  Blocks(std::size_t count, std::size_t size) noexcept : count_(count), size_(size) {}
-
-  /// Calls work(begin, end) for blocks until there are none left.
-  template <class Work>
-  void take(const Work& work) {
-    for (std::size_t begin = next_.fetch_add(size_); begin < count_; begin = next_.fetch_add(size_)) {
-      work(begin, std::min(begin + size_, count_));
-    }
-  }
-
- private:
-  std::atomic<std::size_t> next_{0};
-  std::size_t count_;
-  std::size_t size_;
-};
-
-/// Calls work(thread, begin, end) for blocks of [0, count) on an executor; `thread` is below `threads`, and no two
-/// calls at the same time have the same.
-template <class Executor, class Work>
-void for_blocks(Executor& executor, std::size_t threads, std::size_t count, std::size_t block_size, const Work& work) {
-  Blocks blocks(count, block_size);
-  std::atomic<std::size_t> arrived{0};
-  const auto take_part = [&] {
-    const std::size_t thread = arrived.fetch_add(1);
-    if (thread >= threads) return;  // called more often than announced
-    blocks.take([&](std::size_t begin, std::size_t end) { work(thread, begin, end); });
-  };
-  executor.run([&take_part] { take_part(); });  // one pointer: a std::function holds it without memory of its own
+template <class Policy>
+[[nodiscard]] const char* name_of() noexcept {
+  static_assert(HasName<Policy>::value,
+                "layout_of<D>() supports policies with `static constexpr const char* name`, which must tell them from "
+                "all others");
+  return Policy::name;
 }
 
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_BATCH_EXECUTOR_HPP
+[[nodiscard]] constexpr int greatest_common_divisor(int a, int b) noexcept {
+  return b == 0 ? a : greatest_common_divisor(b, a % b);
+}
 
-// shortshot/batch/features.hpp: rows of descriptors with where and how they were made. Hosted only.
-#ifndef SHORTSHOT_BATCH_FEATURES_HPP
-#define SHORTSHOT_BATCH_FEATURES_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// What extract() and describe_cloud() give: one row per key point, in their order. Rows only: copying it copies no
-/// scratch memory. Keep it from frame to frame and its memory is used again.
-template <class D>
-struct Features {
-  std::vector<float> values;        ///< size() * D::size, row by row; zeros where the status is not ok
-  std::vector<Status> status;       ///< one per key point
-  std::vector<KeyPoint> keypoints;  ///< what was described; zeros for an index outside of the cloud
-  std::vector<Frame> frames;        ///< the local reference frame of each; zeros where the status is not ok
-  std::vector<FrameConfidence> frame_confidence;  ///< how sure each of them is; zeros: not ok, or the caller's frame
-  std::vector<std::uint32_t> neighbors;           ///< found within the larger radius, the key point itself included
-
-  [[nodiscard, gnu::always_inline]] std::size_t size() const noexcept { return status.size(); }
-  [[nodiscard, gnu::always_inline]] const float* operator[](std::size_t row) const noexcept {
-    return values.data() + row * static_cast<std::size_t>(D::size);
+/// What a radius scale's name leaves open.
+template <class Scale>
+struct ScaleParameters {
+  static void add_to(std::string&) {}
+};
+template <int Numerator, int Denominator>
+struct ScaleParameters<LogRadius<Numerator, Denominator>> {
+  static void add_to(std::string& text) {
+    constexpr int common = greatest_common_divisor(Numerator, Denominator);
+    add_all(text, " from ", Numerator / common, "/", Denominator / common);
   }
 };
 
-}  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// What a row holds whose status is not ok.
-template <class D>
-void clear_row(Features<D>& features, std::size_t row) noexcept {
-  constexpr auto row_size = static_cast<std::size_t>(D::size);
-  features.frames[row] = Frame{};
-  features.frame_confidence[row] = FrameConfidence{};
-  std::fill_n(features.values.data() + row * row_size, row_size, 0.0f);
+template <class Part>
+void add_part(std::string& text) {
+  using Signal = typename Part::Signal;
+  using Grid = typename Part::Grid;
+  using Scale = typename Part::Scale;
+  add(text, name_of<Signal>());
+  if constexpr (Signal::has_histogram) add_all(text, " ", Signal::bins, " bins");
+  if constexpr (!std::is_void<typename Signal::Rule>::value) add_all(text, " (", name_of<typename Signal::Rule>(), ")");
+  add_all(text, " ", Grid::radial, "x", Grid::elevation, "x", Grid::azimuth, " ", name_of<Scale>());
+  ScaleParameters<Scale>::add_to(text);
 }
 
-/// `count` rows without a descriptor, all with one status. Whatever is thrown while memory is asked for, no row of
-/// before is left.
-template <class D>
-void clear_rows(Features<D>& out, std::size_t count, Status status) {
-  out.status.clear();
-  out.values.assign(count * static_cast<std::size_t>(D::size), 0.0f);
-  out.keypoints.assign(count, KeyPoint{});
-  out.frames.assign(count, Frame{});
-  out.frame_confidence.assign(count, FrameConfidence{});
-  out.neighbors.assign(count, 0);
-  out.status.assign(count, status);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_BATCH_FEATURES_HPP
-
-// shortshot/batch/growing_workspace.hpp: a workspace that grows: one per thread. Hosted only: allocates.
-#ifndef SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
-#define SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-class GrowingWorkspace {
- public:
-  [[nodiscard]] Neighborhood neighborhood() noexcept {
-    const std::size_t n = index_.size();
-    float* p = floats_.data();
-    return {p, p + n, p + 2 * n, p + 3 * n, index_.data(), static_cast<std::uint32_t>(n), 0, 0, {}};
-  }
-
-  /// A search's gather(); grows until the neighbors fit.
-  template <class Search>
-  [[nodiscard]] Status gather(const Search& search, const Point& center, Radius radius, Neighborhood& n) {
-    n = neighborhood();
-    const Status status = search.gather(center, radius, n);
-    if (status != Status::too_many_neighbors || n.found > max_neighbors) return status;
-    reserve(n.found);
-    n = neighborhood();
-    return search.gather(center, radius, n);
-  }
-
-  /// Room for `neighbors`; half as much again where it has to grow, so that it seldom does.
-  void reserve(std::size_t neighbors) {
-    if (neighbors <= index_.size()) return;
-    const std::size_t capacity = neighbors + neighbors / 2;
-    floats_.resize(4 * capacity);
-    index_.resize(capacity);
-  }
-
- private:
-  std::vector<float> floats_;
-  std::vector<std::uint32_t> index_;
-};
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// Key points that a thread takes at a time. Few, since one at the rim of an object has a hundredth of the neighbors
-/// of one on a table, and whoever takes the last block keeps the others waiting: of 1000 key points on 8 threads that
-/// cost 1 % with blocks of 2, 2.5 % with 4, 10 % with 16 (measured), and a block costs 30 nanoseconds at worst.
-inline constexpr std::size_t keypoint_block = 2;
-
-/// Colors that a thread converts at a time: about 20 microseconds of work.
-inline constexpr std::size_t color_block = 4096;
-
-/// Key point `row` of those that are to be described: false for an index outside of the cloud.
-[[nodiscard]] inline bool keypoint_at(const CloudView&, const std::vector<KeyPoint>& keypoints, std::size_t row,
-                                      KeyPoint& key) noexcept {
-  key = keypoints[row];
-  return true;
-}
-template <class Index>
-[[nodiscard]] bool keypoint_at(const CloudView& cloud, const std::vector<Index>& keypoints, std::size_t row,
-                               KeyPoint& key) noexcept {
-  static_assert(std::is_integral<Index>::value, "extract() supports key points as indices or as KeyPoints");
-  const auto index = static_cast<std::size_t>(keypoints[row]);  // a negative one becomes far too large
-  if (index >= cloud.size) return false;
-  key = keypoint(cloud, index);
-  return true;
+template <class Voting, class... Parts>
+[[nodiscard]] std::string layout_text(const Descriptor<Voting, Parts...>*) {
+  std::string text;
+  add_all(text, name_of<Voting>(), ", ", name_of<typename Descriptor<Voting, Parts...>::Cells>());
+  const char* separator = ": ";
+  ((add(text, separator), add_part<Parts>(text), separator = " | "), ...);
+  return text;
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -6999,184 +6800,30 @@ template <class Index>
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
-/// Describes many key points of one cloud after the other, and owns the scratch memory that this takes. `Color` is how
-/// a cloud's colors are kept meanwhile: Lab, 12 bytes a point, or PackedLab, 4 bytes a point and less exact.
+/// What the values of descriptor D mean and how they are laid out, in English and in ASCII: its voting rule, its cell
+/// convention, and for each part its signal, histogram bins, color conversion, grid (radius x elevation x azimuth) and
+/// radius scale. SCSH-336:
 ///
-/// Allocates those and 16 KB for colors, about 30 bytes for each neighbor of the largest neighborhood and each thread,
-/// and the rows; with the same extractor and features again, nothing, until a cloud needs more than those before it.
-/// Starting threads, however, costs small allocations of the C++ runtime's in every call; an executor has none. May
-/// throw what std::vector, std::thread and the executor throw (on a thread started here that ends the program); rows
-/// that were not described by then have the status out_of_memory.
-template <class D, class Color = Lab>
-class Extractor {
-  static_assert(std::is_same<Color, Lab>::value || std::is_same<Color, PackedLab>::value,
-                "Extractor<D, Color> supports Lab and PackedLab");
-
- public:
-  /// See the function extract() below.
-  template <class Search, class Key, class Threads = unsigned, class... Own>
-  [[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
-                               const Support& support, Features<D>& out, Threads&& threads = 1u, const Own&... own) {
-    const auto finish = [&](const Neighborhood& n, const auto& sources, std::size_t row, float* values) {
-      return detail::describe_gathered<D, default_chunk_size>(n, sources, out.keypoints[row].position, support,
-                                                              out.frames[row], values, out.frame_confidence[row]);
-    };
-    return extract_all(cloud, search, keypoints, support, out, threads, finish, own...);
-  }
-
-  /// The same in frames that the caller knows, one for each key point: bad_rows if there are not as many; bad_frame for
-  /// a key point whose frame is not orthonormal.
-  template <class Search, class Key, class Threads = unsigned, class... Own>
-  [[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
-                               const std::vector<Frame>& frames, Radius radius, Features<D>& out,
-                               Threads&& threads = 1u, const Own&... own) {
-    if (frames.size() != keypoints.size()) {
-      detail::clear_rows(out, keypoints.size(), Status::bad_rows);
-      return Status::bad_rows;
-    }
-    const auto finish = [&](const Neighborhood& n, const auto& sources, std::size_t row, float* values) {
-      out.frames[row] = frames[row];
-      return describe<D>(n, sources, frames[row], radius, values);
-    };
-    return extract_all(cloud, search, keypoints, radius, out, threads, finish, own...);
-  }
-
- private:
-  /// finish(neighborhood, sources, row, values) makes row `row` of a key point's neighborhood.
-  template <class Search, class Key, class Threads, class Finish, class... Own>
-  [[nodiscard]] Status extract_all(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
-                                   const Support& support, Features<D>& out, Threads& threads, const Finish& finish,
-                                   const Own&... own) {
-    const std::size_t count = keypoints.size();
-    auto&& executor = detail::executor_of(threads, (count + detail::keypoint_block - 1) / detail::keypoint_block);
-    const Status usable = validate<D>(cloud, search, support);
-    detail::clear_rows(out, count, usable == Status::ok ? Status::out_of_memory : usable);
-    if (usable != Status::ok) return usable;
-    const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-    if (workspaces_.size() < team) {
-      workspaces_.resize(team);
-      leveled_for_ = 0;
-    }
-    convert_colors(cloud, executor, team);
-    const auto extract_rows = [&](std::size_t thread, std::size_t begin, std::size_t end) {
-      for (std::size_t row = begin; row < end; ++row) {
-        KeyPoint& key = out.keypoints[row];
-        Status& status = out.status[row];
-        status = Status::bad_keypoint;
-        if (!detail::keypoint_at(cloud, keypoints, row, key)) continue;
-        status = extract_row(cloud, search, support, workspaces_[thread], out, row, finish, own...);
-        if (status == Status::ok) continue;
-        detail::clear_row(out, row);
-      }
-    };
-    detail::for_blocks(executor, team, count, detail::keypoint_block, extract_rows);
-    level(out.neighbors);
-    return Status::ok;
-  }
-
-  /// One row but for the zeros of a failure. The workspace grows until the neighbors fit.
-  template <class Search, class Finish, class... Own>
-  [[nodiscard]] Status extract_row(const CloudView& cloud, const Search& search, const Support& support,
-                                   detail::GrowingWorkspace& workspace, Features<D>& out, std::size_t row,
-                                   const Finish& finish, const Own&... own) const {
-    using Kinds = typename D::Sources;
-    const KeyPoint& key = out.keypoints[row];
-    if (!is_finite(key.position)) return Status::invalid_keypoint;
-    const Color* const converted = lab_.data();
-    const auto sources = detail::sources_at(Kinds{}, cloud, key, own..., converted);
-    Status status = detail::status_of(Kinds{}, sources);
-    if (status != Status::ok) return status;
-    Neighborhood n;
-    status = workspace.gather(search, key.position, detail::gather_radius(support), n);
-    out.neighbors[row] = n.found;
-    if (status != Status::ok) return status;
-    if (n.size > max_neighbors) return Status::too_many_neighbors;
-    return finish(n, sources, row, row_of(out, row));
-  }
-
-  template <class Executor>
-  void convert_colors(const CloudView& cloud, Executor& executor, std::size_t team) {
-    if constexpr (D::needs_colors) {
-      to_lab_.fill();
-      lab_.resize(cloud.size);
-      detail::for_blocks(executor, team, cloud.size, detail::color_block,
-                         [&](std::size_t, std::size_t begin, std::size_t end) {
-                           detail::convert_range(cloud, begin, end, to_lab_, lab_.data());
-                         });
-    }
-  }
-
-  /// Room in all workspaces for a quarter more neighbors than the largest neighborhood had, whichever thread gets it
-  /// next time. Nothing is done about clouds up to an eighth denser than that: a little difference needs no memory.
-  void level(const std::vector<std::uint32_t>& neighbors) {
-    if (neighbors.empty()) return;
-    const std::size_t most = std::min(*std::max_element(neighbors.begin(), neighbors.end()), max_neighbors);
-    if (most <= leveled_for_) return;
-    for (detail::GrowingWorkspace& workspace : workspaces_) workspace.reserve(most + most / 4);
-    leveled_for_ = most + most / 8;
-  }
-
-  [[nodiscard]] static float* row_of(Features<D>& out, std::size_t row) noexcept {
-    return out.values.data() + row * static_cast<std::size_t>(D::size);
-  }
-
-  LabTable<typename D::LabRule> to_lab_;
-  std::vector<Color> lab_;                            // the cloud's colors
-  std::vector<detail::GrowingWorkspace> workspaces_;  // one per thread
-  std::size_t leveled_for_ = 0;                       // neighbors that each of them has had room made for
-};
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_BATCH_EXTRACTOR_HPP
-
-// shortshot/batch/keep_best_frames.hpp: the key points whose frames are surest, and no others. Hosted only: allocates.
-#ifndef SHORTSHOT_BATCH_KEEP_BEST_FRAMES_HPP
-#define SHORTSHOT_BATCH_KEEP_BEST_FRAMES_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// Leave out all but the best share of the rows whose status is ok: those whose frames have most confidence(), of
-/// equals the first. The others become unsure_frame, and zeros: rows keep their places and their key points, and
-/// matching, training and recognition pass over them. It saves their time, and on frames of a room the rows that stay
-/// are right more often; elsewhere what it brings is little or nothing: bench/paper/README.md, "Frame confidence".
-/// Thin out both clouds of a pair alike, or one of them alone.
+///     published voting, published cells: occupancy 3x4x8 equal shells | color distance 15 bins (published Lab) 2x2x4
+///     equal shells
 ///
-/// `share`  above 0, at most 1 (bad_option; nothing is changed); the number is rounded to the nearest, and one row
-///          stays at least. Called twice with 1/2 it leaves a quarter
-///
-/// O(rows); allocates 4 bytes a row. The same rows on every machine.
+/// (in one line). Two types with the same text have values that can be compared; two that differ in anything named here
+/// have different texts. What is no part of D is not in it: the radii, and how frames were turned. A policy of your own
+/// needs a `name` as those of the library have, which says everything about it, parameters included. Allocates.
 template <class D>
-[[nodiscard]] Status keep_best_frames(Features<D>& features, float share) {
-  if (!(share > 0.0f && share <= 1.0f)) return Status::bad_option;
-  std::vector<std::uint32_t> rows;
-  for (std::size_t row = 0; row < features.size(); ++row) {
-    if (features.status[row] == Status::ok) rows.push_back(static_cast<std::uint32_t>(row));
-  }
-  const float wanted = __builtin_roundf(share * static_cast<float>(rows.size()));
-  const auto kept = std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
-  if (share == 1.0f || kept >= rows.size()) return Status::ok;
-  const auto end = rows.begin() + static_cast<std::ptrdiff_t>(kept);
-  std::nth_element(rows.begin(), end, rows.end(), [&](std::uint32_t a, std::uint32_t b) {
-    const float of_a = confidence(features.frame_confidence[a]);
-    const float of_b = confidence(features.frame_confidence[b]);
-    return of_a != of_b ? of_a > of_b : a < b;
-  });
-  for (auto row = end; row != rows.end(); ++row) {
-    features.status[*row] = Status::unsure_frame;
-    detail::clear_row(features, *row);
-  }
-  return Status::ok;
+[[nodiscard]] std::string layout_of() {
+  return detail::layout_text(static_cast<const D*>(nullptr));
 }
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
-#endif  // SHORTSHOT_BATCH_KEEP_BEST_FRAMES_HPP
+#endif  // SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
 
 // shortshot/batch/keypoints.hpp: uniform key points, one per occupied voxel. Hosted only: allocates.
 #ifndef SHORTSHOT_BATCH_KEYPOINTS_HPP
 #define SHORTSHOT_BATCH_KEYPOINTS_HPP
+
+#include <algorithm>
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -7301,54 +6948,156 @@ inline namespace SHORTSHOT_CODE {
 }  // namespace shortshot
 #endif  // SHORTSHOT_BATCH_KEYPOINTS_HPP
 
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// How describe_cloud() describes. Defaults for objects on a table, seen by a depth camera at one meter.
-struct CloudOptions {
-  float radius = 0.04f;       ///< of the support, in meters
-  float leaf = 0.02f;         ///< one key point in each occupied voxel of that many meters: its points' centroid
-  float frame_radius = 0.0f;  ///< of the local reference frame, in meters; 0: the support's
-  float best_frames = 1.0f;   ///< above 0, at most 1: share of the key points that is kept, those with surest frames
-  Viewpoint viewpoint;        ///< turns the frames' z; Viewpoint::towards({0, 0, 0}): a camera at the origin
-  unsigned threads = 1;       ///< that share the work
-};
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
-/// Describes a whole cloud: key points by sample_centroids(), neighbors by a GridSearch, rows by an Extractor. `out`
-/// has the key points, too.
-///
-/// Statuses: empty_cloud, bad_view, bad_leaf, bad_radius, bad_viewpoint, missing_colors, missing_normals (for SHOT and
-/// CSHOT: estimate_normals() first), missing_intensities, bad_option (best_frames); `out` is empty, or all its rows
-/// have that status. Each row has a status of its own. Allocates what those three do, anew in every call; for cloud
-/// after cloud take them one by one.
-template <class D>
-[[nodiscard]] Status describe_cloud(const CloudView& cloud, const CloudOptions& options, Features<D>& out) {
-  detail::clear_rows(out, 0, Status::ok);
-  Support support = options.radius;
-  if (options.frame_radius != 0.0f) support.frame_radius = Radius(options.frame_radius);
-  support.viewpoint = options.viewpoint;
-  std::vector<KeyPoint> keypoints;
-  Status status = validate(support.radius);
-  if (status == Status::ok) status = sample_centroids(cloud, options.leaf, keypoints);
-  if (status != Status::ok) return status;
-  const GridSearch search(cloud, options.radius);
-  status = Extractor<D>().extract(cloud, search, keypoints, support, out, options.threads);
-  return status == Status::ok ? keep_best_frames(out, options.best_frames) : status;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_BATCH_DESCRIBE_CLOUD_HPP
-
 // shortshot/batch/estimate_normals.hpp: the surface normals of a whole cloud, on one or more threads. Hosted only:
 // allocates, starts threads.
 #ifndef SHORTSHOT_BATCH_ESTIMATE_NORMALS_HPP
 #define SHORTSHOT_BATCH_ESTIMATE_NORMALS_HPP
 
 #include <limits>
+
+// shortshot/batch/executor.hpp: who does extract()'s work: threads started for one call, or an executor of the
+// caller's. Hosted only.
+#ifndef SHORTSHOT_BATCH_EXECUTOR_HPP
+#define SHORTSHOT_BATCH_EXECUTOR_HPP
+
+#include <atomic>
+#include <thread>
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// The executor that a plain number of threads stands for. One of them is the caller's; the others are started and
+/// joined by each run().
+class StartedThreads {
+ public:
+  explicit StartedThreads(std::size_t threads) noexcept : threads_(threads) {}
+  [[nodiscard]] std::size_t threads() const noexcept { return threads_; }
+
+  template <class Work>
+  void run(const Work& work) const {
+    run_erased([](const void* erased) { (*static_cast<const Work*>(erased))(); }, &work);
+  }
+
+ private:
+  /// Compiled once for all work: std::thread and a vector of them take a compiler their time.
+  void run_erased(void (*call)(const void* work), const void* work) const {
+    struct Threads : std::vector<std::thread> {
+      ~Threads() {  // also when one more thread cannot be started: those that run finish the work
+        for (std::thread& thread : *this) thread.join();
+      }
+    } others;
+    others.reserve(threads_ - 1);
+    for (std::size_t t = 1; t < threads_; ++t) others.emplace_back(call, work);
+    call(work);
+  }
+
+  std::size_t threads_;
+};
+
+struct NoWork {
+  void operator()() const noexcept {}
+};
+
+template <class T, class = void>
+struct IsExecutor : std::false_type {};
+template <class T>
+struct IsExecutor<T, std::void_t<decltype(static_cast<std::size_t>(std::declval<T&>().threads())),
+                                 decltype(std::declval<T&>().run(NoWork{}))>> : std::true_type {};
+
+/// The executor meant by `threads`; a number is cut to what `blocks` of work can keep busy.
+template <class Threads>
+[[nodiscard]] decltype(auto) executor_of(Threads& threads, std::size_t blocks) {
+  constexpr bool is_number = std::is_integral<Threads>::value;
+  static_assert(
+      is_number || IsExecutor<Threads>::value,
+      "extract() and estimate_normals() support a number of threads, or an executor with threads() and run(work)");
+  if constexpr (is_number) {
+    const std::size_t wanted = threads > 0 ? static_cast<std::size_t>(threads) : 1;
+    return StartedThreads(std::max<std::size_t>(1, std::min(wanted, blocks)));
+  } else {
+    return (threads);
+  }
+}
+
+/// Blocks of [0, count), to be taken one after the other by whoever is free.
+class Blocks {
+ public:
+  Blocks(std::size_t count, std::size_t size) noexcept : count_(count), size_(size) {}
+
+  /// Calls work(begin, end) for blocks until there are none left.
+  template <class Work>
+  void take(const Work& work) {
+    for (std::size_t begin = next_.fetch_add(size_); begin < count_; begin = next_.fetch_add(size_)) {
+      work(begin, std::min(begin + size_, count_));
+    }
+  }
+
+ private:
+  std::atomic<std::size_t> next_{0};
+  std::size_t count_;
+  std::size_t size_;
+};
+
+/// Calls work(thread, begin, end) for blocks of [0, count) on an executor; `thread` is below `threads`, and no two
+/// calls at the same time have the same.
+template <class Executor, class Work>
+void for_blocks(Executor& executor, std::size_t threads, std::size_t count, std::size_t block_size, const Work& work) {
+  Blocks blocks(count, block_size);
+  std::atomic<std::size_t> arrived{0};
+  const auto take_part = [&] {
+    const std::size_t thread = arrived.fetch_add(1);
+    if (thread >= threads) return;  // called more often than announced
+    blocks.take([&](std::size_t begin, std::size_t end) { work(thread, begin, end); });
+  };
+  executor.run([&take_part] { take_part(); });  // one pointer: a std::function holds it without memory of its own
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_EXECUTOR_HPP
+
+// shortshot/batch/growing_workspace.hpp: a workspace that grows: one per thread. Hosted only: allocates.
+#ifndef SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
+#define SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+class GrowingWorkspace {
+ public:
+  [[nodiscard]] Neighborhood neighborhood() noexcept {
+    const std::size_t n = index_.size();
+    float* p = floats_.data();
+    return {p, p + n, p + 2 * n, p + 3 * n, index_.data(), static_cast<std::uint32_t>(n), 0, 0, {}};
+  }
+
+  /// A search's gather(); grows until the neighbors fit.
+  template <class Search>
+  [[nodiscard]] Status gather(const Search& search, const Point& center, Radius radius, Neighborhood& n) {
+    n = neighborhood();
+    const Status status = search.gather(center, radius, n);
+    if (status != Status::too_many_neighbors || n.found > max_neighbors) return status;
+    reserve(n.found);
+    n = neighborhood();
+    return search.gather(center, radius, n);
+  }
+
+  /// Room for `neighbors`; half as much again where it has to grow, so that it seldom does.
+  void reserve(std::size_t neighbors) {
+    if (neighbors <= index_.size()) return;
+    const std::size_t capacity = neighbors + neighbors / 2;
+    floats_.resize(4 * capacity);
+    index_.resize(capacity);
+  }
+
+ private:
+  std::vector<float> floats_;
+  std::vector<std::uint32_t> index_;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -7608,6 +7357,264 @@ template <class Search, class Threads = unsigned>
 #ifndef SHORTSHOT_BATCH_EXTRACT_HPP
 #define SHORTSHOT_BATCH_EXTRACT_HPP
 
+// shortshot/batch/extractor.hpp: many key points at once, with memory that is used again for the next cloud. Hosted
+// only: allocates, starts threads.
+#ifndef SHORTSHOT_BATCH_EXTRACTOR_HPP
+#define SHORTSHOT_BATCH_EXTRACTOR_HPP
+
+// shortshot/color/lab_table.hpp: sRGB bytes -> CIELAB by a table of roots, for whole clouds. Hosted only: allocates.
+#ifndef SHORTSHOT_COLOR_LAB_TABLE_HPP
+#define SHORTSHOT_COLOR_LAB_TABLE_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// What to_lab<Rule>() gives, bit for bit: the roots are the same ones, taken once for each of the 4001 steps that a
+/// ratio can have. 16 KB; filling it costs as much as to_lab() of 1300 colors.
+template <class Rule>
+class LabTable {
+ public:
+  /// To be called before the first color; does nothing where it was called before. May throw std::bad_alloc.
+  void fill() {
+    if (!roots_.empty()) return;
+    roots_.reserve(detail::last_ratio_step + 1);
+    for (int step = 0; step <= detail::last_ratio_step; ++step) roots_.push_back(detail::root_of_step<Rule>(step));
+  }
+
+  [[nodiscard]] Lab operator()(Rgb color) const noexcept {
+    Lab lab;
+    detail::lab_by<Rule>([roots = roots_.data()](int step) { return roots[step]; }, color, lab);
+    return lab;
+  }
+
+ private:
+  std::vector<float> roots_;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_COLOR_LAB_TABLE_HPP
+
+// shortshot/batch/features.hpp: rows of descriptors with where and how they were made. Hosted only.
+#ifndef SHORTSHOT_BATCH_FEATURES_HPP
+#define SHORTSHOT_BATCH_FEATURES_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// What extract() and describe_cloud() give: one row per key point, in their order. Rows only: copying it copies no
+/// scratch memory. Keep it from frame to frame and its memory is used again.
+template <class D>
+struct Features {
+  std::vector<float> values;        ///< size() * D::size, row by row; zeros where the status is not ok
+  std::vector<Status> status;       ///< one per key point
+  std::vector<KeyPoint> keypoints;  ///< what was described; zeros for an index outside of the cloud
+  std::vector<Frame> frames;        ///< the local reference frame of each; zeros where the status is not ok
+  std::vector<FrameConfidence> frame_confidence;  ///< how sure each of them is; zeros: not ok, or the caller's frame
+  std::vector<std::uint32_t> neighbors;           ///< found within the larger radius, the key point itself included
+
+  [[nodiscard, gnu::always_inline]] std::size_t size() const noexcept { return status.size(); }
+  [[nodiscard, gnu::always_inline]] const float* operator[](std::size_t row) const noexcept {
+    return values.data() + row * static_cast<std::size_t>(D::size);
+  }
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// What a row holds whose status is not ok.
+template <class D>
+void clear_row(Features<D>& features, std::size_t row) noexcept {
+  constexpr auto row_size = static_cast<std::size_t>(D::size);
+  features.frames[row] = Frame{};
+  features.frame_confidence[row] = FrameConfidence{};
+  std::fill_n(features.values.data() + row * row_size, row_size, 0.0f);
+}
+
+/// `count` rows without a descriptor, all with one status. Whatever is thrown while memory is asked for, no row of
+/// before is left.
+template <class D>
+void clear_rows(Features<D>& out, std::size_t count, Status status) {
+  out.status.clear();
+  out.values.assign(count * static_cast<std::size_t>(D::size), 0.0f);
+  out.keypoints.assign(count, KeyPoint{});
+  out.frames.assign(count, Frame{});
+  out.frame_confidence.assign(count, FrameConfidence{});
+  out.neighbors.assign(count, 0);
+  out.status.assign(count, status);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_FEATURES_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Key points that a thread takes at a time. Few, since one at the rim of an object has a hundredth of the neighbors
+/// of one on a table, and whoever takes the last block keeps the others waiting: of 1000 key points on 8 threads that
+/// cost 1 % with blocks of 2, 2.5 % with 4, 10 % with 16 (measured), and a block costs 30 nanoseconds at worst.
+inline constexpr std::size_t keypoint_block = 2;
+
+/// Colors that a thread converts at a time: about 20 microseconds of work.
+inline constexpr std::size_t color_block = 4096;
+
+/// Key point `row` of those that are to be described: false for an index outside of the cloud.
+[[nodiscard]] inline bool keypoint_at(const CloudView&, const std::vector<KeyPoint>& keypoints, std::size_t row,
+                                      KeyPoint& key) noexcept {
+  key = keypoints[row];
+  return true;
+}
+template <class Index>
+[[nodiscard]] bool keypoint_at(const CloudView& cloud, const std::vector<Index>& keypoints, std::size_t row,
+                               KeyPoint& key) noexcept {
+  static_assert(std::is_integral<Index>::value, "extract() supports key points as indices or as KeyPoints");
+  const auto index = static_cast<std::size_t>(keypoints[row]);  // a negative one becomes far too large
+  if (index >= cloud.size) return false;
+  key = keypoint(cloud, index);
+  return true;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// Describes many key points of one cloud after the other, and owns the scratch memory that this takes. `Color` is how
+/// a cloud's colors are kept meanwhile: Lab, 12 bytes a point, or PackedLab, 4 bytes a point and less exact.
+///
+/// Allocates those and 16 KB for colors, about 30 bytes for each neighbor of the largest neighborhood and each thread,
+/// and the rows; with the same extractor and features again, nothing, until a cloud needs more than those before it.
+/// Starting threads, however, costs small allocations of the C++ runtime's in every call; an executor has none. May
+/// throw what std::vector, std::thread and the executor throw (on a thread started here that ends the program); rows
+/// that were not described by then have the status out_of_memory.
+template <class D, class Color = Lab>
+class Extractor {
+  static_assert(std::is_same<Color, Lab>::value || std::is_same<Color, PackedLab>::value,
+                "Extractor<D, Color> supports Lab and PackedLab");
+
+ public:
+  /// See the function extract() below.
+  template <class Search, class Key, class Threads = unsigned, class... Own>
+  [[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
+                               const Support& support, Features<D>& out, Threads&& threads = 1u, const Own&... own) {
+    const auto finish = [&](const Neighborhood& n, const auto& sources, std::size_t row, float* values) {
+      return detail::describe_gathered<D, default_chunk_size>(n, sources, out.keypoints[row].position, support,
+                                                              out.frames[row], values, out.frame_confidence[row]);
+    };
+    return extract_all(cloud, search, keypoints, support, out, threads, finish, own...);
+  }
+
+  /// The same in frames that the caller knows, one for each key point: bad_rows if there are not as many; bad_frame for
+  /// a key point whose frame is not orthonormal.
+  template <class Search, class Key, class Threads = unsigned, class... Own>
+  [[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
+                               const std::vector<Frame>& frames, Radius radius, Features<D>& out,
+                               Threads&& threads = 1u, const Own&... own) {
+    if (frames.size() != keypoints.size()) {
+      detail::clear_rows(out, keypoints.size(), Status::bad_rows);
+      return Status::bad_rows;
+    }
+    const auto finish = [&](const Neighborhood& n, const auto& sources, std::size_t row, float* values) {
+      out.frames[row] = frames[row];
+      return describe<D>(n, sources, frames[row], radius, values);
+    };
+    return extract_all(cloud, search, keypoints, radius, out, threads, finish, own...);
+  }
+
+ private:
+  /// finish(neighborhood, sources, row, values) makes row `row` of a key point's neighborhood.
+  template <class Search, class Key, class Threads, class Finish, class... Own>
+  [[nodiscard]] Status extract_all(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
+                                   const Support& support, Features<D>& out, Threads& threads, const Finish& finish,
+                                   const Own&... own) {
+    const std::size_t count = keypoints.size();
+    auto&& executor = detail::executor_of(threads, (count + detail::keypoint_block - 1) / detail::keypoint_block);
+    const Status usable = validate<D>(cloud, search, support);
+    detail::clear_rows(out, count, usable == Status::ok ? Status::out_of_memory : usable);
+    if (usable != Status::ok) return usable;
+    const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
+    if (workspaces_.size() < team) {
+      workspaces_.resize(team);
+      leveled_for_ = 0;
+    }
+    convert_colors(cloud, executor, team);
+    const auto extract_rows = [&](std::size_t thread, std::size_t begin, std::size_t end) {
+      for (std::size_t row = begin; row < end; ++row) {
+        KeyPoint& key = out.keypoints[row];
+        Status& status = out.status[row];
+        status = Status::bad_keypoint;
+        if (!detail::keypoint_at(cloud, keypoints, row, key)) continue;
+        status = extract_row(cloud, search, support, workspaces_[thread], out, row, finish, own...);
+        if (status == Status::ok) continue;
+        detail::clear_row(out, row);
+      }
+    };
+    detail::for_blocks(executor, team, count, detail::keypoint_block, extract_rows);
+    level(out.neighbors);
+    return Status::ok;
+  }
+
+  /// One row but for the zeros of a failure. The workspace grows until the neighbors fit.
+  template <class Search, class Finish, class... Own>
+  [[nodiscard]] Status extract_row(const CloudView& cloud, const Search& search, const Support& support,
+                                   detail::GrowingWorkspace& workspace, Features<D>& out, std::size_t row,
+                                   const Finish& finish, const Own&... own) const {
+    using Kinds = typename D::Sources;
+    const KeyPoint& key = out.keypoints[row];
+    if (!is_finite(key.position)) return Status::invalid_keypoint;
+    const Color* const converted = lab_.data();
+    const auto sources = detail::sources_at(Kinds{}, cloud, key, own..., converted);
+    Status status = detail::status_of(Kinds{}, sources);
+    if (status != Status::ok) return status;
+    Neighborhood n;
+    status = workspace.gather(search, key.position, detail::gather_radius(support), n);
+    out.neighbors[row] = n.found;
+    if (status != Status::ok) return status;
+    if (n.size > max_neighbors) return Status::too_many_neighbors;
+    return finish(n, sources, row, row_of(out, row));
+  }
+
+  template <class Executor>
+  void convert_colors(const CloudView& cloud, Executor& executor, std::size_t team) {
+    if constexpr (D::needs_colors) {
+      to_lab_.fill();
+      lab_.resize(cloud.size);
+      detail::for_blocks(executor, team, cloud.size, detail::color_block,
+                         [&](std::size_t, std::size_t begin, std::size_t end) {
+                           detail::convert_range(cloud, begin, end, to_lab_, lab_.data());
+                         });
+    }
+  }
+
+  /// Room in all workspaces for a quarter more neighbors than the largest neighborhood had, whichever thread gets it
+  /// next time. Nothing is done about clouds up to an eighth denser than that: a little difference needs no memory.
+  void level(const std::vector<std::uint32_t>& neighbors) {
+    if (neighbors.empty()) return;
+    const std::size_t most = std::min(*std::max_element(neighbors.begin(), neighbors.end()), max_neighbors);
+    if (most <= leveled_for_) return;
+    for (detail::GrowingWorkspace& workspace : workspaces_) workspace.reserve(most + most / 4);
+    leveled_for_ = most + most / 8;
+  }
+
+  [[nodiscard]] static float* row_of(Features<D>& out, std::size_t row) noexcept {
+    return out.values.data() + row * static_cast<std::size_t>(D::size);
+  }
+
+  LabTable<typename D::LabRule> to_lab_;
+  std::vector<Color> lab_;                            // the cloud's colors
+  std::vector<detail::GrowingWorkspace> workspaces_;  // one per thread
+  std::size_t leveled_for_ = 0;                       // neighbors that each of them has had room made for
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_BATCH_EXTRACTOR_HPP
+
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
@@ -7660,6 +7667,97 @@ template <class D, class Search, class Key, class Threads = unsigned, class... O
 }  // namespace shortshot
 #endif  // SHORTSHOT_BATCH_EXTRACT_HPP
 
+// shortshot/batch/describe_cloud.hpp: a whole cloud in one call: key points, search, frames, descriptors. Hosted only:
+// allocates, starts threads.
+#ifndef SHORTSHOT_BATCH_DESCRIBE_CLOUD_HPP
+#define SHORTSHOT_BATCH_DESCRIBE_CLOUD_HPP
+
+// shortshot/batch/keep_best_frames.hpp: the key points whose frames are surest, and no others. Hosted only: allocates.
+#ifndef SHORTSHOT_BATCH_KEEP_BEST_FRAMES_HPP
+#define SHORTSHOT_BATCH_KEEP_BEST_FRAMES_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// Leave out all but the best share of the rows whose status is ok: those whose frames have most confidence(), of
+/// equals the first. The others become unsure_frame, and zeros: rows keep their places and their key points, and
+/// matching, training and recognition pass over them. It saves their time, and on frames of a room the rows that stay
+/// are right more often; elsewhere what it brings is little or nothing: bench/paper/README.md, "Frame confidence".
+/// Thin out both clouds of a pair alike, or one of them alone.
+///
+/// `share`  above 0, at most 1 (bad_option; nothing is changed); the number is rounded to the nearest, and one row
+///          stays at least. Called twice with 1/2 it leaves a quarter
+///
+/// O(rows); allocates 4 bytes a row. The same rows on every machine.
+template <class D>
+[[nodiscard]] Status keep_best_frames(Features<D>& features, float share) {
+  if (!(share > 0.0f && share <= 1.0f)) return Status::bad_option;
+  std::vector<std::uint32_t> rows;
+  for (std::size_t row = 0; row < features.size(); ++row) {
+    if (features.status[row] == Status::ok) rows.push_back(static_cast<std::uint32_t>(row));
+  }
+  const float wanted = __builtin_roundf(share * static_cast<float>(rows.size()));
+  const auto kept = std::max<std::size_t>(1, static_cast<std::size_t>(wanted));
+  if (share == 1.0f || kept >= rows.size()) return Status::ok;
+  const auto end = rows.begin() + static_cast<std::ptrdiff_t>(kept);
+  std::nth_element(rows.begin(), end, rows.end(), [&](std::uint32_t a, std::uint32_t b) {
+    const float of_a = confidence(features.frame_confidence[a]);
+    const float of_b = confidence(features.frame_confidence[b]);
+    return of_a != of_b ? of_a > of_b : a < b;
+  });
+  for (auto row = end; row != rows.end(); ++row) {
+    features.status[*row] = Status::unsure_frame;
+    detail::clear_row(features, *row);
+  }
+  return Status::ok;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_BATCH_KEEP_BEST_FRAMES_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// How describe_cloud() describes. Defaults for objects on a table, seen by a depth camera at one meter.
+struct CloudOptions {
+  float radius = 0.04f;       ///< of the support, in meters
+  float leaf = 0.02f;         ///< one key point in each occupied voxel of that many meters: its points' centroid
+  float frame_radius = 0.0f;  ///< of the local reference frame, in meters; 0: the support's
+  float best_frames = 1.0f;   ///< above 0, at most 1: share of the key points that is kept, those with surest frames
+  Viewpoint viewpoint;        ///< turns the frames' z; Viewpoint::towards({0, 0, 0}): a camera at the origin
+  unsigned threads = 1;       ///< that share the work
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// Describes a whole cloud: key points by sample_centroids(), neighbors by a GridSearch, rows by an Extractor. `out`
+/// has the key points, too.
+///
+/// Statuses: empty_cloud, bad_view, bad_leaf, bad_radius, bad_viewpoint, missing_colors, missing_normals (for SHOT and
+/// CSHOT: estimate_normals() first), missing_intensities, bad_option (best_frames); `out` is empty, or all its rows
+/// have that status. Each row has a status of its own. Allocates what those three do, anew in every call; for cloud
+/// after cloud take them one by one.
+template <class D>
+[[nodiscard]] Status describe_cloud(const CloudView& cloud, const CloudOptions& options, Features<D>& out) {
+  detail::clear_rows(out, 0, Status::ok);
+  Support support = options.radius;
+  if (options.frame_radius != 0.0f) support.frame_radius = Radius(options.frame_radius);
+  support.viewpoint = options.viewpoint;
+  std::vector<KeyPoint> keypoints;
+  Status status = validate(support.radius);
+  if (status == Status::ok) status = sample_centroids(cloud, options.leaf, keypoints);
+  if (status != Status::ok) return status;
+  const GridSearch search(cloud, options.radius);
+  status = Extractor<D>().extract(cloud, search, keypoints, support, out, options.threads);
+  return status == Status::ok ? keep_best_frames(out, options.best_frames) : status;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_BATCH_DESCRIBE_CLOUD_HPP
+
 // shortshot/batch/to_pcl.hpp: descriptors as PCL's clouds of signatures, without including PCL. Hosted only.
 //
 // The other way needs nothing: of a pcl::PointCloud<pcl::SHOT352> `cloud`, the floats of row i are cloud[i].descriptor,
@@ -7704,73 +7802,429 @@ void to_pcl(const Features<D>& features, PclCloud& cloud) {
 }  // namespace shortshot
 #endif  // SHORTSHOT_BATCH_TO_PCL_HPP
 
-// shortshot/descriptor/layout_text.hpp: what the values of a descriptor mean, as text: for files, and for code that
-// knows descriptors only at run time. Hosted only: allocates.
-#ifndef SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
-#define SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
+// shortshot/store/features_file.hpp: what extract() gives as bytes, or in a file. Hosted only: allocates.
+//
+// Between what byte_stream.hpp puts around it ("SSHOTFEA", the version and the checksum), n rows of s values:
+//
+//     layout (length, characters), s, n
+//     values: n * s floats, row by row
+//     statuses: n bytes
+//     key points, for each: 3 floats position, float intensity, 3 bytes red, green, blue, 1 byte: 1 if there is a color
+//       plus 2 if there is an intensity
+//     frames: n * 9 floats, the x axis first
+//     frames' confidences: n * 3 floats (gap, margin of x, margin of z)
+//     neighbors: n * 4 bytes
+//
+// Numbers of statuses are part of the format: Status only ever grows at its end.
+#ifndef SHORTSHOT_STORE_FEATURES_FILE_HPP
+#define SHORTSHOT_STORE_FEATURES_FILE_HPP
 
-#include <string>
+#include <string_view>
+
+// shortshot/store/byte_stream.hpp: what all of the library's files have in common. Hosted only: allocates.
+//
+// All numbers are little-endian, floats by their bits, counts and lengths 8 bytes:
+//
+//     8 characters that say what it is, 4 bytes format version
+//     what is saved
+//     8 bytes checksum (64-bit FNV-1a) of all bytes before it
+//
+// FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
+// does once in 2^64 times. It is no protection from who means harm; nobody believes a number because of it.
+#ifndef SHORTSHOT_STORE_BYTE_STREAM_HPP
+#define SHORTSHOT_STORE_BYTE_STREAM_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-template <class Policy, class = void>
-struct HasName : std::false_type {};
-template <class Policy>
-struct HasName<Policy, std::void_t<decltype(std::string(Policy::name))>> : std::true_type {};
+inline constexpr std::size_t checksum_bytes = 8;
 
-// Called, not inlined: text is put together from many pieces, and a compiler would take its time for each.
-[[gnu::noinline]] inline void add(std::string& text, const char* more) { text += more; }
-[[gnu::noinline]] inline void add(std::string& text, int number) { text += std::to_string(number); }
-template <class... Pieces>
-void add_all(std::string& text, Pieces... pieces) {
-  (add(text, pieces), ...);
+[[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size) noexcept {
+  std::uint64_t hash = 0xCBF29CE484222325u;
+  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001B3u;
+  return hash;
 }
 
-template <class Policy>
-[[nodiscard]] const char* name_of() noexcept {
-  static_assert(HasName<Policy>::value,
-                "layout_of<D>() supports policies with `static constexpr const char* name`, which must tell them from "
-                "all others");
-  return Policy::name;
-}
+/// What a file is: its first characters, and the version of the format.
+struct FileKind {
+  std::string_view magic;
+  std::uint32_t version;
 
-[[nodiscard]] constexpr int greatest_common_divisor(int a, int b) noexcept {
-  return b == 0 ? a : greatest_common_divisor(b, a % b);
-}
-
-/// What a radius scale's name leaves open.
-template <class Scale>
-struct ScaleParameters {
-  static void add_to(std::string&) {}
+  [[nodiscard]] std::size_t header_bytes() const noexcept { return magic.size() + sizeof version; }
 };
-template <int Numerator, int Denominator>
-struct ScaleParameters<LogRadius<Numerator, Denominator>> {
-  static void add_to(std::string& text) {
-    constexpr int common = greatest_common_divisor(Numerator, Denominator);
-    add_all(text, " from ", Numerator / common, "/", Denominator / common);
+
+/// Writes a file into bytes. It is complete after finish().
+class ByteWriter {
+ public:
+  /// In place of whatever was there; `expected_bytes` saves allocations.
+  ByteWriter(std::vector<std::uint8_t>& bytes, const FileKind& kind, std::size_t expected_bytes) : bytes_(bytes) {
+    bytes.clear();
+    bytes.reserve(expected_bytes);
+    characters(kind.magic);
+    number(kind.version);
   }
+  void finish() { number(checksum(bytes_.data(), bytes_.size())); }
+
+  template <class Unsigned>
+  void number(Unsigned value) {
+    append(value, sizeof value);
+  }
+  void count(std::size_t value) { append(value, 8); }
+  void real(float value) { append(math::bits_of(value), sizeof value); }
+  [[gnu::noinline]] void reals(const float* values, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) real(values[i]);
+  }
+  void point(const Point& p) {
+    const float values[3] = {p.x, p.y, p.z};
+    reals(values, 3);
+  }
+  void name(std::string_view text) {
+    count(text.size());
+    characters(text);
+  }
+
+ private:
+  void characters(std::string_view text) {
+    for (const char c : text) append(static_cast<std::uint8_t>(c), 1);
+  }
+  [[gnu::noinline]] void append(std::uint64_t value, std::size_t bytes) {
+    for (std::size_t k = 0; k < bytes; ++k) bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * k) & 0xFFu));
+  }
+
+  std::vector<std::uint8_t>& bytes_;
 };
 
-template <class Part>
-void add_part(std::string& text) {
-  using Signal = typename Part::Signal;
-  using Grid = typename Part::Grid;
-  using Scale = typename Part::Scale;
-  add(text, name_of<Signal>());
-  if constexpr (Signal::has_histogram) add_all(text, " ", Signal::bins, " bins");
-  if constexpr (!std::is_void<typename Signal::Rule>::value) add_all(text, " (", name_of<typename Signal::Rule>(), ")");
-  add_all(text, " ", Grid::radial, "x", Grid::elevation, "x", Grid::azimuth, " ", name_of<Scale>());
-  ScaleParameters<Scale>::add_to(text);
+/// Reads what may be damaged: from the first thing on that cannot be, all is zero and good() false.
+class ByteReader {
+ public:
+  ByteReader(const std::uint8_t* bytes, std::size_t size) noexcept : at_(bytes), left_(size) {}
+
+  [[nodiscard]] bool good() const noexcept { return good_; }
+  [[nodiscard]] std::size_t left() const noexcept { return left_; }
+  void require(bool condition) noexcept { good_ = good_ && condition; }
+
+  template <class Unsigned>
+  [[nodiscard]] Unsigned number() noexcept {
+    return static_cast<Unsigned>(number_of(sizeof(Unsigned)));
+  }
+  /// Any bits, those of NaN too.
+  [[nodiscard]] float any_real() noexcept { return math::float_of(number<std::uint32_t>()); }
+  [[nodiscard]] float real() noexcept {
+    const float value = any_real();
+    require(math::is_finite(value));
+    return good_ ? value : 0.0f;
+  }
+  [[gnu::noinline]] void reals(float* values, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; ++i) values[i] = real();
+  }
+  [[nodiscard]] Point point() noexcept {
+    float values[3];
+    reals(values, 3);
+    return {values[0], values[1], values[2]};
+  }
+  /// How many there are of something that takes `least` bytes or more each: no more than the bytes that are left hold.
+  [[nodiscard]] std::size_t count(std::size_t least) noexcept {
+    const std::uint64_t value = number_of(8);
+    require(value <= left_ / least);
+    return good_ ? static_cast<std::size_t>(value) : 0;
+  }
+  /// One of `count` things.
+  [[nodiscard]] std::uint32_t index(std::size_t count) noexcept {
+    const auto value = number<std::uint32_t>();
+    require(value < count);
+    return good_ ? value : 0;
+  }
+  [[nodiscard]] std::string name() {
+    const std::size_t length = count(1);
+    const std::uint8_t* const characters = take(length);
+    return {characters, characters + length};
+  }
+
+ private:
+  [[nodiscard, gnu::noinline]] std::uint64_t number_of(std::size_t size) noexcept {
+    const std::uint8_t* const bytes = take(size);
+    std::uint64_t value = 0;
+    for (std::size_t k = size; good_ && k-- > 0;) value = value << 8 | bytes[k];
+    return value;
+  }
+  [[nodiscard]] const std::uint8_t* take(std::size_t size) noexcept {
+    require(size <= left_);
+    if (!good_) return at_;
+    left_ -= size;
+    at_ += size;
+    return at_ - size;
+  }
+
+  const std::uint8_t* at_;
+  std::size_t left_;
+  bool good_ = true;
+};
+
+/// Leaves `body` at what is saved, if the bytes around it are right; not_a_model, other_version or damaged_model (the
+/// bytes end early, or the checksum is wrong) if not, the first that applies.
+[[nodiscard]] inline Status open_checked(const std::uint8_t* bytes, std::size_t size, const FileKind& kind,
+                                         ByteReader& body) noexcept {
+  const std::size_t magic_bytes = kind.magic.size();
+  if (bytes == nullptr || size < magic_bytes) return Status::not_a_model;
+  for (std::size_t i = 0; i < magic_bytes; ++i) {
+    if (bytes[i] != static_cast<std::uint8_t>(kind.magic[i])) return Status::not_a_model;
+  }
+  ByteReader header(bytes + magic_bytes, size - magic_bytes);
+  const auto version = header.number<std::uint32_t>();
+  if (header.good() && version != kind.version) return Status::other_version;
+  if (header.left() < checksum_bytes) return Status::damaged_model;
+  const std::size_t checked_bytes = size - checksum_bytes;
+  ByteReader sum(bytes + checked_bytes, checksum_bytes);
+  if (sum.number<std::uint64_t>() != checksum(bytes, checked_bytes)) return Status::damaged_model;
+  body = ByteReader(bytes + kind.header_bytes(), checked_bytes - kind.header_bytes());
+  return Status::ok;
 }
 
-template <class Voting, class... Parts>
-[[nodiscard]] std::string layout_text(const Descriptor<Voting, Parts...>*) {
-  std::string text;
-  add_all(text, name_of<Voting>(), ", ", name_of<typename Descriptor<Voting, Parts...>::Cells>());
-  const char* separator = ": ";
-  ((add(text, separator), add_part<Parts>(text), separator = " | "), ...);
-  return text;
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_BYTE_STREAM_HPP
+
+// shortshot/store/replace_file.hpp: files as a whole: all bytes of one, or new ones in its place. Hosted only.
+//
+// A file is never written to where it lies: a disk that is full, or a program that ends, would leave half of the new
+// file and nothing of the old one. What is new is written beside it, and then takes its name, which is one step.
+//
+// By the C library: <fstream> takes more time to compile than all that would be used of it.
+#ifndef SHORTSHOT_STORE_REPLACE_FILE_HPP
+#define SHORTSHOT_STORE_REPLACE_FILE_HPP
+
+#include <cerrno>
+#include <cstdio>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/stat.h>
+#include <unistd.h>
+#endif
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Makes a file that was not there before, of a name that nobody else has: "x" fails for one that is. Null, and no
+/// name, if there can be none. What programs that ended in between have left is never touched.
+[[nodiscard]] inline std::FILE* create_beside(const std::string& path, std::string& name) {
+  for (int attempt = 0; attempt < 100; ++attempt) {
+    name = path;
+    name += ".tmp-";
+    name += static_cast<char>('0' + attempt / 10);
+    name += static_cast<char>('0' + attempt % 10);
+    std::FILE* const file = std::fopen(name.c_str(), "wbx");
+    if (file != nullptr) return file;
+    if (errno != EEXIST) break;
+  }
+  name.clear();
+  return nullptr;
+}
+
+/// Can a file take that name? Not where a folder or a device is: a program with all rights could replace /dev/null.
+/// Whoever could read the old file can read the new one.
+[[nodiscard]] inline bool adopt_rights(const std::string& path, std::FILE* file) noexcept {
+#if defined(__unix__) || defined(__APPLE__)
+  struct stat old;
+  if (::stat(path.c_str(), &old) != 0) return true;  // there is none
+  return S_ISREG(old.st_mode) && ::fchmod(::fileno(file), old.st_mode & 07777) == 0;
+#else
+  static_cast<void>(path);
+  static_cast<void>(file);
+  return true;
+#endif
+}
+
+/// Only when the disk has it: a full one may say so as late as that.
+[[nodiscard]] inline bool flush_to_disk(std::FILE* file) noexcept {
+  if (std::fflush(file) != 0) return false;
+#if defined(__unix__) || defined(__APPLE__)
+  return ::fsync(::fileno(file)) == 0 || errno == EINVAL;  // EINVAL: a file system without
+#else
+  return true;
+#endif
+}
+
+/// Puts a file that has `bytes` in place of what is at `path`, or where nothing is. ok or no_file; then what was there
+/// still is, as it was, and nothing else is left. A symbolic link is replaced, not the file that it leads to.
+[[nodiscard]] inline Status replace_file(const std::string& path, const std::vector<std::uint8_t>& bytes) {
+  std::string name;
+  std::FILE* const file = create_beside(path, name);
+  if (file == nullptr) return Status::no_file;
+  bool is_written = adopt_rights(path, file) && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() &&
+                    flush_to_disk(file);
+  is_written = std::fclose(file) == 0 && is_written;
+  if (is_written && std::rename(name.c_str(), path.c_str()) == 0) return Status::ok;
+#if defined(_WIN32)  // where a name that is in use cannot be taken over
+  if (is_written && std::remove(path.c_str()) == 0 && std::rename(name.c_str(), path.c_str()) == 0) return Status::ok;
+#endif
+  static_cast<void>(std::remove(name.c_str()));
+  return Status::no_file;
+}
+
+/// All bytes of a file. ok or no_file; `bytes` may be the first ones then.
+[[nodiscard]] inline Status read_file(const std::string& path, std::vector<std::uint8_t>& bytes) {
+  bytes.clear();
+  std::FILE* const file = std::fopen(path.c_str(), "rb");
+  if (file == nullptr) return Status::no_file;
+  struct Closer {
+    std::FILE* file;
+    ~Closer() { static_cast<void>(std::fclose(file)); }
+  } const closer{file};  // memory may be short
+  std::uint8_t block[4096];
+  while (const std::size_t count = std::fread(block, 1, sizeof block, file)) {
+    bytes.insert(bytes.end(), block, block + count);
+  }
+  return std::ferror(file) == 0 ? Status::ok : Status::no_file;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_REPLACE_FILE_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline constexpr FileKind features_file{"SSHOTFEA", 1};
+
+/// Of a row, without its values.
+inline constexpr std::size_t feature_bytes = 1 + (3 + 1) * sizeof(float) + 4 + (9 + 3) * sizeof(float) + 4;
+
+/// The vectors of a Features<D>, or of a const one: what follows is compiled once for all D, and, being templates, not
+/// at all where no features are saved.
+template <template <class> class MaybeConst>
+struct FeatureColumns {
+  std::string_view layout;
+  std::size_t row_size;
+  MaybeConst<std::vector<float>>& values;
+  MaybeConst<std::vector<Status>>& status;
+  MaybeConst<std::vector<KeyPoint>>& keypoints;
+  MaybeConst<std::vector<Frame>>& frames;
+  MaybeConst<std::vector<FrameConfidence>>& confidence;
+  MaybeConst<std::vector<std::uint32_t>>& neighbors;
+};
+template <class T>
+using Same = T;
+using ColumnsToSave = FeatureColumns<std::add_const_t>;
+using ColumnsToLoad = FeatureColumns<Same>;
+
+template <class Columns, class SomeFeatures>
+[[nodiscard]] Columns columns_of(SomeFeatures& features, std::string_view layout, std::size_t row_size) noexcept {
+  return {layout,
+          row_size,
+          features.values,
+          features.status,
+          features.keypoints,
+          features.frames,
+          features.frame_confidence,
+          features.neighbors};
+}
+
+/// What load() would take: as many of everything, and no value that is not finite. A key point's position and intensity
+/// may be anything: that is what its status says.
+template <class Columns>
+[[nodiscard]] bool can_be_saved(const Columns& from) noexcept {
+  const std::size_t count = from.status.size();
+  bool can = from.values.size() == count * from.row_size && from.keypoints.size() == count &&
+             from.frames.size() == count && from.confidence.size() == count && from.neighbors.size() == count;
+  for (const float value : from.values) can = can && math::is_finite(value);
+  for (const Status status : from.status) can = can && static_cast<int>(status) < status_count;
+  for (const Frame& frame : from.frames) {
+    can = can && math::is_finite(frame.x) && math::is_finite(frame.y) && math::is_finite(frame.z);
+  }
+  for (const FrameConfidence& c : from.confidence) {
+    can = can && is_finite(Point{c.eigenvalue_gap, c.x_margin, c.z_margin});
+  }
+  return can;
+}
+
+template <class Columns>
+void write_columns(ByteWriter& to, const Columns& from) {
+  to.name(from.layout);
+  to.count(from.row_size);
+  to.count(from.status.size());
+  to.reals(from.values.data(), from.values.size());
+  for (const Status status : from.status) to.number(static_cast<std::uint8_t>(status));
+  for (const KeyPoint& key : from.keypoints) {
+    to.point(key.position);
+    to.real(key.intensity);
+    for (const std::uint8_t channel : {key.color.r, key.color.g, key.color.b}) to.number(channel);
+    to.number(static_cast<std::uint8_t>((key.has_color ? 1 : 0) + (key.has_intensity ? 2 : 0)));
+  }
+  for (const Frame& frame : from.frames) {
+    to.reals(frame.x, 3);
+    to.reals(frame.y, 3);
+    to.reals(frame.z, 3);
+  }
+  for (const FrameConfidence& c : from.confidence) to.point({c.eigenvalue_gap, c.x_margin, c.z_margin});
+  for (const std::uint32_t count : from.neighbors) to.number(count);
+}
+
+[[nodiscard]] inline Status read_status(ByteReader& from) noexcept {
+  const auto number = from.number<std::uint8_t>();
+  from.require(number < status_count);
+  return from.good() ? static_cast<Status>(number) : Status::ok;
+}
+
+[[nodiscard]] inline KeyPoint read_keypoint(ByteReader& from) noexcept {
+  KeyPoint key{};
+  for (float* value : {&key.position.x, &key.position.y, &key.position.z, &key.intensity}) *value = from.any_real();
+  for (std::uint8_t* channel : {&key.color.r, &key.color.g, &key.color.b}) *channel = from.number<std::uint8_t>();
+  const auto has = from.number<std::uint8_t>();
+  from.require(has < 4);
+  key.has_color = (has & 1u) != 0;
+  key.has_intensity = (has & 2u) != 0;
+  return key;
+}
+
+/// ok, other_descriptor or damaged_model; what is not ok may leave anything.
+template <class Columns>
+[[nodiscard]] Status read_columns(ByteReader& from, const Columns& to) {
+  const std::string layout = from.name();
+  const auto row_size = from.number<std::uint64_t>();
+  if (!from.good()) return Status::damaged_model;
+  if (layout != to.layout) return Status::other_descriptor;
+  from.require(row_size == to.row_size);
+  const std::size_t row_bytes = to.row_size * sizeof(float) + feature_bytes;
+  const std::size_t count = from.count(row_bytes);
+  from.require(from.left() == count * row_bytes);
+  if (!from.good()) return Status::damaged_model;
+  to.values.resize(count * to.row_size);
+  from.reals(to.values.data(), to.values.size());
+  to.status.reserve(count);
+  while (to.status.size() < count) to.status.push_back(read_status(from));
+  to.keypoints.reserve(count);
+  while (to.keypoints.size() < count) to.keypoints.push_back(read_keypoint(from));
+  to.frames.resize(count);
+  for (Frame& frame : to.frames) {
+    from.reals(frame.x, 3);
+    from.reals(frame.y, 3);
+    from.reals(frame.z, 3);
+  }
+  to.confidence.reserve(count);
+  while (to.confidence.size() < count) {
+    const Point c = from.point();
+    to.confidence.push_back({c.x, c.y, c.z});
+  }
+  to.neighbors.reserve(count);
+  while (to.neighbors.size() < count) to.neighbors.push_back(from.number<std::uint32_t>());
+  return from.good() ? Status::ok : Status::damaged_model;
+}
+
+template <class Columns>
+[[nodiscard]] Status save_columns(const Columns& from, std::vector<std::uint8_t>& bytes) {
+  bytes.clear();
+  if (!can_be_saved(from)) return Status::bad_rows;
+  const std::size_t row_bytes = from.row_size * sizeof(float) + feature_bytes;
+  ByteWriter to(bytes, features_file, 4096 + from.status.size() * row_bytes);
+  write_columns(to, from);
+  to.finish();
+  return Status::ok;
+}
+template <class Columns>
+[[nodiscard]] Status load_columns(const std::uint8_t* bytes, std::size_t size, const Columns& to) {
+  ByteReader body(nullptr, 0);
+  const Status status = open_checked(bytes, size, features_file, body);
+  return status == Status::ok ? read_columns(body, to) : status;
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -7779,24 +8233,52 @@ template <class Voting, class... Parts>
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
-/// What the values of descriptor D mean and how they are laid out, in English and in ASCII: its voting rule, its cell
-/// convention, and for each part its signal, histogram bins, color conversion, grid (radius x elevation x azimuth) and
-/// radius scale. SCSH-336:
+/// What extract() gave, as bytes: the same ones on every machine, 4 * D::size + 73 for a row and some hundred more.
 ///
-///     published voting, published cells: occupancy 3x4x8 equal shells | color distance 15 bins (published Lab) 2x2x4
-///     equal shells
-///
-/// (in one line). Two types with the same text have values that can be compared; two that differ in anything named here
-/// have different texts. What is no part of D is not in it: the radii, and how frames were turned. A policy of your own
-/// needs a `name` as those of the library have, which says everything about it, parameters included. Allocates.
+/// Statuses: bad_rows (vectors that are not as long as each other, as extract() makes them; values, frames or
+/// confidences that are not finite); `bytes` is empty then. Allocates the bytes. Reentrant.
 template <class D>
-[[nodiscard]] std::string layout_of() {
-  return detail::layout_text(static_cast<const D*>(nullptr));
+[[nodiscard]] Status save(const Features<D>& features, std::vector<std::uint8_t>& bytes) {
+  const std::string layout = layout_of<D>();
+  return detail::save_columns(detail::columns_of<detail::ColumnsToSave>(features, layout, std::size_t{D::size}), bytes);
+}
+
+/// The features that save() made these bytes of, bit for bit. What layout_of<D>() does not say (radii, how frames were
+/// turned) is for the caller to know.
+///
+/// Statuses, the first one that applies: not_a_model (no features' bytes), other_version, damaged_model (the bytes end
+/// early, or go on; the checksum is wrong), other_descriptor (of another layout than D's), damaged_model (the bytes are
+/// not what save() writes). `out` has not changed then. Allocates about as much as there are bytes, whatever they say.
+/// Reentrant.
+template <class D>
+[[nodiscard]] Status load(const std::uint8_t* bytes, std::size_t size, Features<D>& out) {
+  const std::string layout = layout_of<D>();
+  Features<D> loaded;
+  const Status status = detail::load_columns(
+      bytes, size, detail::columns_of<detail::ColumnsToLoad>(loaded, layout, std::size_t{D::size}));
+  if (status == Status::ok) out = std::move(loaded);
+  return status;
+}
+
+/// The same in a file. Also no_file: it cannot be opened, or not all of it written or read. If that happens to save()
+/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-00" (or 01,
+/// ...), and takes its name when it is complete. So there must be room for both, and its folder must be writable.
+template <class D>
+[[nodiscard]] Status save(const Features<D>& features, const std::string& path) {
+  std::vector<std::uint8_t> bytes;
+  const Status status = save(features, bytes);
+  return status == Status::ok ? detail::replace_file(path, bytes) : status;
+}
+template <class D>
+[[nodiscard]] Status load(const std::string& path, Features<D>& out) {
+  std::vector<std::uint8_t> bytes;
+  const Status status = detail::read_file(path, bytes);
+  return status == Status::ok ? load(bytes.data(), bytes.size(), out) : status;
 }
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
-#endif  // SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
+#endif  // SHORTSHOT_STORE_FEATURES_FILE_HPP
 
 // shortshot/recognition/match.hpp: the nearest descriptors of another set, exactly; pairs that are each other's
 // nearest; and those that are nearer than all others by far. Hosted only: allocates, starts threads.
@@ -8973,8 +9455,6 @@ template <class Pairs>
 #ifndef SHORTSHOT_RECOGNITION_RECOGNIZE_HPP
 #define SHORTSHOT_RECOGNITION_RECOGNIZE_HPP
 
-#include <string_view>
-
 // shortshot/recognition/codebook.hpp: what a recognizer has learnt. Hosted only: allocates.
 #ifndef SHORTSHOT_RECOGNITION_CODEBOOK_HPP
 #define SHORTSHOT_RECOGNITION_CODEBOOK_HPP
@@ -9520,266 +10000,6 @@ template <class D, class Threads = unsigned>
 #ifndef SHORTSHOT_RECOGNITION_RECOGNIZER_MODEL_HPP
 #define SHORTSHOT_RECOGNITION_RECOGNIZER_MODEL_HPP
 
-// shortshot/store/byte_stream.hpp: what all of the library's files have in common. Hosted only: allocates.
-//
-// All numbers are little-endian, floats by their bits, counts and lengths 8 bytes:
-//
-//     8 characters that say what it is, 4 bytes format version
-//     what is saved
-//     8 bytes checksum (64-bit FNV-1a) of all bytes before it
-//
-// FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
-// does once in 2^64 times. It is no protection from who means harm; nobody believes a number because of it.
-#ifndef SHORTSHOT_STORE_BYTE_STREAM_HPP
-#define SHORTSHOT_STORE_BYTE_STREAM_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-inline constexpr std::size_t checksum_bytes = 8;
-
-[[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size) noexcept {
-  std::uint64_t hash = 0xCBF29CE484222325u;
-  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001B3u;
-  return hash;
-}
-
-/// What a file is: its first characters, and the version of the format.
-struct FileKind {
-  std::string_view magic;
-  std::uint32_t version;
-
-  [[nodiscard]] std::size_t header_bytes() const noexcept { return magic.size() + sizeof version; }
-};
-
-/// Writes a file into bytes. It is complete after finish().
-class ByteWriter {
- public:
-  /// In place of whatever was there; `expected_bytes` saves allocations.
-  ByteWriter(std::vector<std::uint8_t>& bytes, const FileKind& kind, std::size_t expected_bytes) : bytes_(bytes) {
-    bytes.clear();
-    bytes.reserve(expected_bytes);
-    characters(kind.magic);
-    number(kind.version);
-  }
-  void finish() { number(checksum(bytes_.data(), bytes_.size())); }
-
-  template <class Unsigned>
-  void number(Unsigned value) {
-    append(value, sizeof value);
-  }
-  void count(std::size_t value) { append(value, 8); }
-  void real(float value) { append(math::bits_of(value), sizeof value); }
-  [[gnu::noinline]] void reals(const float* values, std::size_t count) {
-    for (std::size_t i = 0; i < count; ++i) real(values[i]);
-  }
-  void point(const Point& p) {
-    const float values[3] = {p.x, p.y, p.z};
-    reals(values, 3);
-  }
-  void name(std::string_view text) {
-    count(text.size());
-    characters(text);
-  }
-
- private:
-  void characters(std::string_view text) {
-    for (const char c : text) append(static_cast<std::uint8_t>(c), 1);
-  }
-  [[gnu::noinline]] void append(std::uint64_t value, std::size_t bytes) {
-    for (std::size_t k = 0; k < bytes; ++k) bytes_.push_back(static_cast<std::uint8_t>(value >> (8 * k) & 0xFFu));
-  }
-
-  std::vector<std::uint8_t>& bytes_;
-};
-
-/// Reads what may be damaged: from the first thing on that cannot be, all is zero and good() false.
-class ByteReader {
- public:
-  ByteReader(const std::uint8_t* bytes, std::size_t size) noexcept : at_(bytes), left_(size) {}
-
-  [[nodiscard]] bool good() const noexcept { return good_; }
-  [[nodiscard]] std::size_t left() const noexcept { return left_; }
-  void require(bool condition) noexcept { good_ = good_ && condition; }
-
-  template <class Unsigned>
-  [[nodiscard]] Unsigned number() noexcept {
-    return static_cast<Unsigned>(number_of(sizeof(Unsigned)));
-  }
-  /// Any bits, those of NaN too.
-  [[nodiscard]] float any_real() noexcept { return math::float_of(number<std::uint32_t>()); }
-  [[nodiscard]] float real() noexcept {
-    const float value = any_real();
-    require(math::is_finite(value));
-    return good_ ? value : 0.0f;
-  }
-  [[gnu::noinline]] void reals(float* values, std::size_t count) noexcept {
-    for (std::size_t i = 0; i < count; ++i) values[i] = real();
-  }
-  [[nodiscard]] Point point() noexcept {
-    float values[3];
-    reals(values, 3);
-    return {values[0], values[1], values[2]};
-  }
-  /// How many there are of something that takes `least` bytes or more each: no more than the bytes that are left hold.
-  [[nodiscard]] std::size_t count(std::size_t least) noexcept {
-    const std::uint64_t value = number_of(8);
-    require(value <= left_ / least);
-    return good_ ? static_cast<std::size_t>(value) : 0;
-  }
-  /// One of `count` things.
-  [[nodiscard]] std::uint32_t index(std::size_t count) noexcept {
-    const auto value = number<std::uint32_t>();
-    require(value < count);
-    return good_ ? value : 0;
-  }
-  [[nodiscard]] std::string name() {
-    const std::size_t length = count(1);
-    const std::uint8_t* const characters = take(length);
-    return {characters, characters + length};
-  }
-
- private:
-  [[nodiscard, gnu::noinline]] std::uint64_t number_of(std::size_t size) noexcept {
-    const std::uint8_t* const bytes = take(size);
-    std::uint64_t value = 0;
-    for (std::size_t k = size; good_ && k-- > 0;) value = value << 8 | bytes[k];
-    return value;
-  }
-  [[nodiscard]] const std::uint8_t* take(std::size_t size) noexcept {
-    require(size <= left_);
-    if (!good_) return at_;
-    left_ -= size;
-    at_ += size;
-    return at_ - size;
-  }
-
-  const std::uint8_t* at_;
-  std::size_t left_;
-  bool good_ = true;
-};
-
-/// Leaves `body` at what is saved, if the bytes around it are right; not_a_model, other_version or damaged_model (the
-/// bytes end early, or the checksum is wrong) if not, the first that applies.
-[[nodiscard]] inline Status open_checked(const std::uint8_t* bytes, std::size_t size, const FileKind& kind,
-                                         ByteReader& body) noexcept {
-  const std::size_t magic_bytes = kind.magic.size();
-  if (bytes == nullptr || size < magic_bytes) return Status::not_a_model;
-  for (std::size_t i = 0; i < magic_bytes; ++i) {
-    if (bytes[i] != static_cast<std::uint8_t>(kind.magic[i])) return Status::not_a_model;
-  }
-  ByteReader header(bytes + magic_bytes, size - magic_bytes);
-  const auto version = header.number<std::uint32_t>();
-  if (header.good() && version != kind.version) return Status::other_version;
-  if (header.left() < checksum_bytes) return Status::damaged_model;
-  const std::size_t checked_bytes = size - checksum_bytes;
-  ByteReader sum(bytes + checked_bytes, checksum_bytes);
-  if (sum.number<std::uint64_t>() != checksum(bytes, checked_bytes)) return Status::damaged_model;
-  body = ByteReader(bytes + kind.header_bytes(), checked_bytes - kind.header_bytes());
-  return Status::ok;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_STORE_BYTE_STREAM_HPP
-
-// shortshot/store/replace_file.hpp: files as a whole: all bytes of one, or new ones in its place. Hosted only.
-//
-// A file is never written to where it lies: a disk that is full, or a program that ends, would leave half of the new
-// file and nothing of the old one. What is new is written beside it, and then takes its name, which is one step.
-//
-// By the C library: <fstream> takes more time to compile than all that would be used of it.
-#ifndef SHORTSHOT_STORE_REPLACE_FILE_HPP
-#define SHORTSHOT_STORE_REPLACE_FILE_HPP
-
-#include <cerrno>
-#include <cstdio>
-
-#if defined(__unix__) || defined(__APPLE__)
-#include <sys/stat.h>
-#include <unistd.h>
-#endif
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// Makes a file that was not there before, of a name that nobody else has: "x" fails for one that is. Null, and no
-/// name, if there can be none. What programs that ended in between have left is never touched.
-[[nodiscard]] inline std::FILE* create_beside(const std::string& path, std::string& name) {
-  for (int attempt = 0; attempt < 100; ++attempt) {
-    name = path;
-    name += ".tmp-";
-    name += static_cast<char>('0' + attempt / 10);
-    name += static_cast<char>('0' + attempt % 10);
-    std::FILE* const file = std::fopen(name.c_str(), "wbx");
-    if (file != nullptr) return file;
-    if (errno != EEXIST) break;
-  }
-  name.clear();
-  return nullptr;
-}
-
-/// Can a file take that name? Not where a folder or a device is: a program with all rights could replace /dev/null.
-/// Whoever could read the old file can read the new one.
-[[nodiscard]] inline bool adopt_rights(const std::string& path, std::FILE* file) noexcept {
-#if defined(__unix__) || defined(__APPLE__)
-  struct stat old;
-  if (::stat(path.c_str(), &old) != 0) return true;  // there is none
-  return S_ISREG(old.st_mode) && ::fchmod(::fileno(file), old.st_mode & 07777) == 0;
-#else
-  static_cast<void>(path);
-  static_cast<void>(file);
-  return true;
-#endif
-}
-
-/// Only when the disk has it: a full one may say so as late as that.
-[[nodiscard]] inline bool flush_to_disk(std::FILE* file) noexcept {
-  if (std::fflush(file) != 0) return false;
-#if defined(__unix__) || defined(__APPLE__)
-  return ::fsync(::fileno(file)) == 0 || errno == EINVAL;  // EINVAL: a file system without
-#else
-  return true;
-#endif
-}
-
-/// Puts a file that has `bytes` in place of what is at `path`, or where nothing is. ok or no_file; then what was there
-/// still is, as it was, and nothing else is left. A symbolic link is replaced, not the file that it leads to.
-[[nodiscard]] inline Status replace_file(const std::string& path, const std::vector<std::uint8_t>& bytes) {
-  std::string name;
-  std::FILE* const file = create_beside(path, name);
-  if (file == nullptr) return Status::no_file;
-  bool is_written = adopt_rights(path, file) && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size() &&
-                    flush_to_disk(file);
-  is_written = std::fclose(file) == 0 && is_written;
-  if (is_written && std::rename(name.c_str(), path.c_str()) == 0) return Status::ok;
-#if defined(_WIN32)  // where a name that is in use cannot be taken over
-  if (is_written && std::remove(path.c_str()) == 0 && std::rename(name.c_str(), path.c_str()) == 0) return Status::ok;
-#endif
-  static_cast<void>(std::remove(name.c_str()));
-  return Status::no_file;
-}
-
-/// All bytes of a file. ok or no_file; `bytes` may be the first ones then.
-[[nodiscard]] inline Status read_file(const std::string& path, std::vector<std::uint8_t>& bytes) {
-  bytes.clear();
-  std::FILE* const file = std::fopen(path.c_str(), "rb");
-  if (file == nullptr) return Status::no_file;
-  struct Closer {
-    std::FILE* file;
-    ~Closer() { static_cast<void>(std::fclose(file)); }
-  } const closer{file};  // memory may be short
-  std::uint8_t block[4096];
-  while (const std::size_t count = std::fread(block, 1, sizeof block, file)) {
-    bytes.insert(bytes.end(), block, block + count);
-  }
-  return std::ferror(file) == 0 ? Status::ok : Status::no_file;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_STORE_REPLACE_FILE_HPP
-
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
@@ -9891,222 +10111,6 @@ inline namespace SHORTSHOT_CODE {
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_RECOGNITION_RECOGNIZER_MODEL_HPP
-
-// shortshot/store/features_file.hpp: what extract() gives as bytes, or in a file. Hosted only: allocates.
-//
-// Between what byte_stream.hpp puts around it ("SSHOTFEA", the version and the checksum), n rows of s values:
-//
-//     layout (length, characters), s, n
-//     values: n * s floats, row by row
-//     statuses: n bytes
-//     key points, for each: 3 floats position, float intensity, 3 bytes red, green, blue, 1 byte: 1 if there is a color
-//       plus 2 if there is an intensity
-//     frames: n * 9 floats, the x axis first
-//     frames' confidences: n * 3 floats (gap, margin of x, margin of z)
-//     neighbors: n * 4 bytes
-//
-// Numbers of statuses are part of the format: Status only ever grows at its end.
-#ifndef SHORTSHOT_STORE_FEATURES_FILE_HPP
-#define SHORTSHOT_STORE_FEATURES_FILE_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-inline constexpr FileKind features_file{"SSHOTFEA", 1};
-
-/// Of a row, without its values.
-inline constexpr std::size_t feature_bytes = 1 + (3 + 1) * sizeof(float) + 4 + (9 + 3) * sizeof(float) + 4;
-
-/// The vectors of a Features<D>, or of a const one: what follows is compiled once for all D, and, being templates, not
-/// at all where no features are saved.
-template <template <class> class MaybeConst>
-struct FeatureColumns {
-  std::string_view layout;
-  std::size_t row_size;
-  MaybeConst<std::vector<float>>& values;
-  MaybeConst<std::vector<Status>>& status;
-  MaybeConst<std::vector<KeyPoint>>& keypoints;
-  MaybeConst<std::vector<Frame>>& frames;
-  MaybeConst<std::vector<FrameConfidence>>& confidence;
-  MaybeConst<std::vector<std::uint32_t>>& neighbors;
-};
-template <class T>
-using Same = T;
-using ColumnsToSave = FeatureColumns<std::add_const_t>;
-using ColumnsToLoad = FeatureColumns<Same>;
-
-template <class Columns, class SomeFeatures>
-[[nodiscard]] Columns columns_of(SomeFeatures& features, std::string_view layout, std::size_t row_size) noexcept {
-  return {layout,
-          row_size,
-          features.values,
-          features.status,
-          features.keypoints,
-          features.frames,
-          features.frame_confidence,
-          features.neighbors};
-}
-
-/// What load() would take: as many of everything, and no value that is not finite. A key point's position and intensity
-/// may be anything: that is what its status says.
-template <class Columns>
-[[nodiscard]] bool can_be_saved(const Columns& from) noexcept {
-  const std::size_t count = from.status.size();
-  bool can = from.values.size() == count * from.row_size && from.keypoints.size() == count &&
-             from.frames.size() == count && from.confidence.size() == count && from.neighbors.size() == count;
-  for (const float value : from.values) can = can && math::is_finite(value);
-  for (const Status status : from.status) can = can && static_cast<int>(status) < status_count;
-  for (const Frame& frame : from.frames) {
-    can = can && math::is_finite(frame.x) && math::is_finite(frame.y) && math::is_finite(frame.z);
-  }
-  for (const FrameConfidence& c : from.confidence) {
-    can = can && is_finite(Point{c.eigenvalue_gap, c.x_margin, c.z_margin});
-  }
-  return can;
-}
-
-template <class Columns>
-void write_columns(ByteWriter& to, const Columns& from) {
-  to.name(from.layout);
-  to.count(from.row_size);
-  to.count(from.status.size());
-  to.reals(from.values.data(), from.values.size());
-  for (const Status status : from.status) to.number(static_cast<std::uint8_t>(status));
-  for (const KeyPoint& key : from.keypoints) {
-    to.point(key.position);
-    to.real(key.intensity);
-    for (const std::uint8_t channel : {key.color.r, key.color.g, key.color.b}) to.number(channel);
-    to.number(static_cast<std::uint8_t>((key.has_color ? 1 : 0) + (key.has_intensity ? 2 : 0)));
-  }
-  for (const Frame& frame : from.frames) {
-    to.reals(frame.x, 3);
-    to.reals(frame.y, 3);
-    to.reals(frame.z, 3);
-  }
-  for (const FrameConfidence& c : from.confidence) to.point({c.eigenvalue_gap, c.x_margin, c.z_margin});
-  for (const std::uint32_t count : from.neighbors) to.number(count);
-}
-
-[[nodiscard]] inline Status read_status(ByteReader& from) noexcept {
-  const auto number = from.number<std::uint8_t>();
-  from.require(number < status_count);
-  return from.good() ? static_cast<Status>(number) : Status::ok;
-}
-
-[[nodiscard]] inline KeyPoint read_keypoint(ByteReader& from) noexcept {
-  KeyPoint key{};
-  for (float* value : {&key.position.x, &key.position.y, &key.position.z, &key.intensity}) *value = from.any_real();
-  for (std::uint8_t* channel : {&key.color.r, &key.color.g, &key.color.b}) *channel = from.number<std::uint8_t>();
-  const auto has = from.number<std::uint8_t>();
-  from.require(has < 4);
-  key.has_color = (has & 1u) != 0;
-  key.has_intensity = (has & 2u) != 0;
-  return key;
-}
-
-/// ok, other_descriptor or damaged_model; what is not ok may leave anything.
-template <class Columns>
-[[nodiscard]] Status read_columns(ByteReader& from, const Columns& to) {
-  const std::string layout = from.name();
-  const auto row_size = from.number<std::uint64_t>();
-  if (!from.good()) return Status::damaged_model;
-  if (layout != to.layout) return Status::other_descriptor;
-  from.require(row_size == to.row_size);
-  const std::size_t row_bytes = to.row_size * sizeof(float) + feature_bytes;
-  const std::size_t count = from.count(row_bytes);
-  from.require(from.left() == count * row_bytes);
-  if (!from.good()) return Status::damaged_model;
-  to.values.resize(count * to.row_size);
-  from.reals(to.values.data(), to.values.size());
-  to.status.reserve(count);
-  while (to.status.size() < count) to.status.push_back(read_status(from));
-  to.keypoints.reserve(count);
-  while (to.keypoints.size() < count) to.keypoints.push_back(read_keypoint(from));
-  to.frames.resize(count);
-  for (Frame& frame : to.frames) {
-    from.reals(frame.x, 3);
-    from.reals(frame.y, 3);
-    from.reals(frame.z, 3);
-  }
-  to.confidence.reserve(count);
-  while (to.confidence.size() < count) {
-    const Point c = from.point();
-    to.confidence.push_back({c.x, c.y, c.z});
-  }
-  to.neighbors.reserve(count);
-  while (to.neighbors.size() < count) to.neighbors.push_back(from.number<std::uint32_t>());
-  return from.good() ? Status::ok : Status::damaged_model;
-}
-
-template <class Columns>
-[[nodiscard]] Status save_columns(const Columns& from, std::vector<std::uint8_t>& bytes) {
-  bytes.clear();
-  if (!can_be_saved(from)) return Status::bad_rows;
-  const std::size_t row_bytes = from.row_size * sizeof(float) + feature_bytes;
-  ByteWriter to(bytes, features_file, 4096 + from.status.size() * row_bytes);
-  write_columns(to, from);
-  to.finish();
-  return Status::ok;
-}
-template <class Columns>
-[[nodiscard]] Status load_columns(const std::uint8_t* bytes, std::size_t size, const Columns& to) {
-  ByteReader body(nullptr, 0);
-  const Status status = open_checked(bytes, size, features_file, body);
-  return status == Status::ok ? read_columns(body, to) : status;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// What extract() gave, as bytes: the same ones on every machine, 4 * D::size + 73 for a row and some hundred more.
-///
-/// Statuses: bad_rows (vectors that are not as long as each other, as extract() makes them; values, frames or
-/// confidences that are not finite); `bytes` is empty then. Allocates the bytes. Reentrant.
-template <class D>
-[[nodiscard]] Status save(const Features<D>& features, std::vector<std::uint8_t>& bytes) {
-  const std::string layout = layout_of<D>();
-  return detail::save_columns(detail::columns_of<detail::ColumnsToSave>(features, layout, std::size_t{D::size}), bytes);
-}
-
-/// The features that save() made these bytes of, bit for bit. What layout_of<D>() does not say (radii, how frames were
-/// turned) is for the caller to know.
-///
-/// Statuses, the first one that applies: not_a_model (no features' bytes), other_version, damaged_model (the bytes end
-/// early, or go on; the checksum is wrong), other_descriptor (of another layout than D's), damaged_model (the bytes are
-/// not what save() writes). `out` has not changed then. Allocates about as much as there are bytes, whatever they say.
-/// Reentrant.
-template <class D>
-[[nodiscard]] Status load(const std::uint8_t* bytes, std::size_t size, Features<D>& out) {
-  const std::string layout = layout_of<D>();
-  Features<D> loaded;
-  const Status status = detail::load_columns(
-      bytes, size, detail::columns_of<detail::ColumnsToLoad>(loaded, layout, std::size_t{D::size}));
-  if (status == Status::ok) out = std::move(loaded);
-  return status;
-}
-
-/// The same in a file. Also no_file: it cannot be opened, or not all of it written or read. If that happens to save()
-/// (the disk is full), what was in the file still is: the new one is written beside it, as `path` + ".tmp-00" (or 01,
-/// ...), and takes its name when it is complete. So there must be room for both, and its folder must be writable.
-template <class D>
-[[nodiscard]] Status save(const Features<D>& features, const std::string& path) {
-  std::vector<std::uint8_t> bytes;
-  const Status status = save(features, bytes);
-  return status == Status::ok ? detail::replace_file(path, bytes) : status;
-}
-template <class D>
-[[nodiscard]] Status load(const std::string& path, Features<D>& out) {
-  std::vector<std::uint8_t> bytes;
-  const Status status = detail::read_file(path, bytes);
-  return status == Status::ok ? load(bytes.data(), bytes.size(), out) : status;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_STORE_FEATURES_FILE_HPP
 #endif
 
 #if defined(NANOFLANN_VERSION)

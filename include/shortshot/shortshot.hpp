@@ -12,25 +12,26 @@
 // Macros of other headers (min, near, Status, ...) do no harm here, whether they come before it or after it. In your
 // own code they do what they always do.
 
-// clang-format off: in this order
-#include "cloud/view_of.hpp"
-#include "cloud/view_point_cloud2.hpp"
-#include "kernel.hpp"
+// clang-format off
 #include "macros_off.hpp"
 
+#include "kernel.hpp"
+#include "cloud/view_of.hpp"
+#include "cloud/view_point_cloud2.hpp"
+
 #if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
-#include "batch/describe_cloud.hpp"
+#include "search/grid_search.hpp"
+#include "descriptor/layout_text.hpp"
+#include "batch/keypoints.hpp"
 #include "batch/estimate_normals.hpp"
 #include "batch/extract.hpp"
-#include "batch/keypoints.hpp"
+#include "batch/describe_cloud.hpp"
 #include "batch/to_pcl.hpp"
-#include "descriptor/layout_text.hpp"
+#include "store/features_file.hpp"
 #include "recognition/match.hpp"
 #include "recognition/pose.hpp"
 #include "recognition/recognize.hpp"
 #include "recognition/recognizer_model.hpp"
-#include "search/grid_search.hpp"
-#include "store/features_file.hpp"
 #endif
 
 #if defined(NANOFLANN_VERSION)

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "bench/bun0_facts.hpp"
+#include "shortshot/cloud/read.hpp"
 #include "tools/golden/case.hpp"
 
 namespace {

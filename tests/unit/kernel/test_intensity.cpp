@@ -181,9 +181,9 @@ TEST_CASE("intensity: extract() and describe_at() agree, at points and at centro
     count += 1.0;
   }
   REQUIRE(keypoints.size() == 4);
-  REQUIRE(keypoints[0].has_intensity);
+  REQUIRE(bool{keypoints[0].has_intensity});
   CHECK(static_cast<double>(keypoints[0].intensity) == doctest::Approx(sum / count).epsilon(1e-6));
   const std::vector<float> none(points, not_a_number);
   REQUIRE(ss::sample_centroids(lit(cloud, none), 1e3f, keypoints) == Status::ok);
-  CHECK_FALSE(keypoints[0].has_intensity);
+  CHECK_FALSE(bool{keypoints[0].has_intensity});
 }
