@@ -42,7 +42,7 @@ depends(readme.firmware.runs readme.firmware.links)
 
 # ---- The map: how to add a signal, a voting rule, ... ----------------------------------------------------------------
 
-set(additions add_signal add_voting_rule add_search add_frame)
+set(additions add_signal add_voting_rule add_search add_frame add_storage)
 string(REPLACE ";" "," names "${additions}")
 build_test(map "${CMAKE_COMMAND}" "-DDOCUMENT=${PROJECT_SOURCE_DIR}/include/shortshot/README.md" "-DEXAMPLES=${names}"
   "-DOUTPUT_DIR=${there}/map" -P "${here}/extract_examples.cmake")
