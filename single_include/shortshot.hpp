@@ -1258,10 +1258,16 @@ enum class [[nodiscard]] Status : std::uint8_t {
   no_file,             ///< a file cannot be read or written
   missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
   unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
+  sizes_differ,         ///< a view's channels have not as many elements as it has points
+  no_coordinates,       ///< a message has no fields x, y and z of floats
+  field_outside,        ///< a message's field x, y or z ends behind its point
+  short_data,           ///< a message has less data than its width, height and step say
+  padded_rows,          ///< a message's rows are not as long as their points
+  other_byte_order,     ///< a message's numbers have the other byte order
 };
 // clang-format on
 
-inline constexpr int status_count = static_cast<int>(Status::unsure_frame) + 1;
+inline constexpr int status_count = static_cast<int>(Status::other_byte_order) + 1;
 
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
@@ -1297,6 +1303,12 @@ inline namespace SHORTSHOT_CODE {
     case Status::no_file: return "the file cannot be read or written";
     case Status::missing_intensities: return "the descriptor needs intensities and there are none";
     case Status::unsure_frame: return "other key points have surer frames";
+    case Status::sizes_differ: return "the view's channels have not as many elements as it has points";
+    case Status::no_coordinates: return "the message has no fields x, y and z of FLOAT32";
+    case Status::field_outside: return "a field of the message lies outside of its point";
+    case Status::short_data: return "the message has less data than its width, height and point_step say";
+    case Status::padded_rows: return "the message's row_step is not width * point_step";
+    case Status::other_byte_order: return "the message has the other byte order";
   }
   return "unknown status";
 }
@@ -1351,6 +1363,7 @@ struct CloudView {
   std::size_t size;
   std::size_t width;
   std::size_t height;
+  Status status;  ///< ok, or why the view could not be made: whoever is asked to read it says so
 };
 
 struct Point {
@@ -1378,6 +1391,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// Is this a view that can be read at all? Every entry point asks once.
 [[nodiscard]] inline Status validate(const CloudView& cloud) noexcept {
+  if (cloud.status != Status::ok) return cloud.status;
   if (cloud.size == 0) return Status::empty_cloud;
   if (cloud.size > 0xFFFFFFFFu) return Status::bad_view;  // indices have 32 bits
   if (cloud.points.x == nullptr || cloud.points.y == nullptr || cloud.points.z == nullptr) return Status::bad_view;
@@ -1420,10 +1434,10 @@ template <class Scalar>
                                 : ScalarType::uint8};
 }
 
-/// A view of nothing, and of more than nothing: bad_view everywhere.
-[[nodiscard]] inline CloudView unusable_view() noexcept {
+/// A view of nothing, for a reason.
+[[nodiscard]] inline CloudView unusable_view(Status reason) noexcept {
   CloudView view{};
-  view.size = 1;
+  view.status = reason;
   return view;
 }
 
@@ -6514,8 +6528,8 @@ template <class Container>
 }
 
 /// The same with normals from a second container of structs with members normal_x, normal_y, normal_z, such as a
-/// pcl::PointCloud<pcl::Normal>; normals that the points have themselves are not read. bad_view if the numbers of
-/// structs differ.
+/// pcl::PointCloud<pcl::Normal>; normals that the points have themselves are not read. sizes_differ if the numbers of
+/// structs do.
 template <class Container, class Normals, class = detail::IfContainer<Normals>>
 [[nodiscard]] CloudView view_of(const Container& cloud, const Normals& normals) noexcept {
   const auto& structs = detail::structs_of(normals);
@@ -6523,7 +6537,7 @@ template <class Container, class Normals, class = detail::IfContainer<Normals>>
   static_assert(detail::HasNormal<Struct>::value,
                 "view_of() supports normals with float members normal_x, normal_y and normal_z");
   CloudView view = view_of(cloud);
-  if (std::size(structs) != view.size) return detail::unusable_view();
+  if (std::size(structs) != view.size) return detail::unusable_view(Status::sizes_differ);
   view.normals = detail::normals_of(std::data(structs), std::size(structs));
   return view;
 }
@@ -6565,7 +6579,10 @@ template <class Name>
   return name == text;
 }
 
-/// Offset of a field with this name and a readable type, or -1.
+inline constexpr std::int64_t no_field = -1;       ///< of this name and a readable type
+inline constexpr std::int64_t outside_point = -2;  ///< there is one, but it ends behind its point
+
+/// Offset of a field with this name and a readable type, or one of these.
 template <class Message>
 [[nodiscard]] std::int64_t offset_of(const Message& message, const char* name, bool packed_color) noexcept {
   for (const auto& field : message.fields) {
@@ -6573,9 +6590,10 @@ template <class Message>
     const int type = static_cast<int>(field.datatype);
     const bool readable = type == field_float32 || (packed_color && type == field_uint32);
     const bool inside = static_cast<std::uint64_t>(field.offset) + 4 <= static_cast<std::uint64_t>(message.point_step);
-    return readable && inside ? static_cast<std::int64_t>(field.offset) : -1;
+    if (!readable) return no_field;
+    return inside ? static_cast<std::int64_t>(field.offset) : outside_point;
   }
-  return -1;
+  return no_field;
 }
 
 /// The channel of a field `intensity` of FLOAT32, UINT8 or UINT16; absent if there is none.
@@ -6607,25 +6625,26 @@ inline namespace SHORTSHOT_CODE {
 /// 0xAARRGGBB packed into it; normals are FLOAT32 fields normal_x, normal_y, normal_z; an intensity is a FLOAT32,
 /// UINT8 or UINT16. The view borrows the message's bytes.
 ///
-/// Statuses: empty_cloud (no point); bad_view (and an empty view): no x, y or z of that type, a field outside
-/// point_step, data shorter than width * height points, padded rows, or the other byte order. No allocation.
+/// Statuses (and an empty view): empty_cloud (no point), no_coordinates, field_outside, other_byte_order, padded_rows,
+/// short_data. Colors, normals or intensities that cannot be read are absent. No allocation.
 template <class Message>
 [[nodiscard]] Status view_point_cloud2(const Message& message, CloudView& view) noexcept {
   view = CloudView{};
   const std::int64_t x = detail::offset_of(message, "x", false);
   const std::int64_t y = detail::offset_of(message, "y", false);
   const std::int64_t z = detail::offset_of(message, "z", false);
-  if (x < 0 || y < 0 || z < 0) return Status::bad_view;
-  if (static_cast<bool>(message.is_bigendian) == detail::is_little_endian()) return Status::bad_view;
+  if (x == detail::no_field || y == detail::no_field || z == detail::no_field) return Status::no_coordinates;
+  if (x < 0 || y < 0 || z < 0) return Status::field_outside;
+  if (static_cast<bool>(message.is_bigendian) == detail::is_little_endian()) return Status::other_byte_order;
 
   const auto step = static_cast<std::size_t>(message.point_step);
   const auto width = static_cast<std::size_t>(message.width);
   const auto height = static_cast<std::size_t>(message.height);
   if (height > 1 && static_cast<std::uint64_t>(message.row_step) != static_cast<std::uint64_t>(width) * step) {
-    return Status::bad_view;
+    return Status::padded_rows;
   }
   if (width == 0 || height == 0) return Status::empty_cloud;
-  if (message.data.size() / step / width < height) return Status::bad_view;
+  if (message.data.size() / step / width < height) return Status::short_data;
 
   const auto* data = reinterpret_cast<const unsigned char*>(message.data.data());
   view.points = {data + x, data + y, data + z, step};
@@ -10309,7 +10328,7 @@ void add_channel(CloudView& view, const Channel& matrix) noexcept {
   } else {
     view.normals = float3_channel(matrix.data(), step, stride);
   }
-  if (Rows::count(matrix) != view.size) view = unusable_view();
+  if (Rows::count(matrix) != view.size) view = unusable_view(Status::sizes_differ);
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -10320,8 +10339,8 @@ inline namespace SHORTSHOT_CODE {
 
 /// View of float points: Matrix3Xf, MatrixX3f, row- or column-major, or a Map of them with any strides. Borrowed.
 ///
-/// `channels`: a matrix of bytes r g b for colors, a matrix of floats for normals, or both, of either shape. bad_view
-/// if the numbers of points differ.
+/// `channels`: a matrix of bytes r g b for colors, a matrix of floats for normals, or both, of either shape.
+/// sizes_differ if the numbers of points do.
 template <class Matrix, class... Channels>
 [[nodiscard]] CloudView view_eigen(const Matrix& xyz, const Channels&... channels) noexcept {
   static_assert(std::is_same<typename Matrix::Scalar, float>::value, "view_eigen() supports float coordinates");

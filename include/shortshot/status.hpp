@@ -40,10 +40,16 @@ enum class [[nodiscard]] Status : std::uint8_t {
   no_file,             ///< a file cannot be read or written
   missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
   unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
+  sizes_differ,         ///< a view's channels have not as many elements as it has points
+  no_coordinates,       ///< a message has no fields x, y and z of floats
+  field_outside,        ///< a message's field x, y or z ends behind its point
+  short_data,           ///< a message has less data than its width, height and step say
+  padded_rows,          ///< a message's rows are not as long as their points
+  other_byte_order,     ///< a message's numbers have the other byte order
 };
 // clang-format on
 
-inline constexpr int status_count = static_cast<int>(Status::unsure_frame) + 1;
+inline constexpr int status_count = static_cast<int>(Status::other_byte_order) + 1;
 
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
@@ -79,6 +85,12 @@ inline namespace SHORTSHOT_CODE {
     case Status::no_file: return "the file cannot be read or written";
     case Status::missing_intensities: return "the descriptor needs intensities and there are none";
     case Status::unsure_frame: return "other key points have surer frames";
+    case Status::sizes_differ: return "the view's channels have not as many elements as it has points";
+    case Status::no_coordinates: return "the message has no fields x, y and z of FLOAT32";
+    case Status::field_outside: return "a field of the message lies outside of its point";
+    case Status::short_data: return "the message has less data than its width, height and point_step say";
+    case Status::padded_rows: return "the message's row_step is not width * point_step";
+    case Status::other_byte_order: return "the message has the other byte order";
   }
   return "unknown status";
 }

@@ -56,6 +56,7 @@ struct CloudView {
   std::size_t size;
   std::size_t width;
   std::size_t height;
+  Status status;  ///< ok, or why the view could not be made: whoever is asked to read it says so
 };
 
 struct Point {
@@ -83,6 +84,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// Is this a view that can be read at all? Every entry point asks once.
 [[nodiscard]] inline Status validate(const CloudView& cloud) noexcept {
+  if (cloud.status != Status::ok) return cloud.status;
   if (cloud.size == 0) return Status::empty_cloud;
   if (cloud.size > 0xFFFFFFFFu) return Status::bad_view;  // indices have 32 bits
   if (cloud.points.x == nullptr || cloud.points.y == nullptr || cloud.points.z == nullptr) return Status::bad_view;
@@ -125,10 +127,10 @@ template <class Scalar>
                                 : ScalarType::uint8};
 }
 
-/// A view of nothing, and of more than nothing: bad_view everywhere.
-[[nodiscard]] inline CloudView unusable_view() noexcept {
+/// A view of nothing, for a reason.
+[[nodiscard]] inline CloudView unusable_view(Status reason) noexcept {
   CloudView view{};
-  view.size = 1;
+  view.status = reason;
   return view;
 }
 

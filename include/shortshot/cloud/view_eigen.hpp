@@ -55,7 +55,7 @@ void add_channel(CloudView& view, const Channel& matrix) noexcept {
   } else {
     view.normals = float3_channel(matrix.data(), step, stride);
   }
-  if (Rows::count(matrix) != view.size) view = unusable_view();
+  if (Rows::count(matrix) != view.size) view = unusable_view(Status::sizes_differ);
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -66,8 +66,8 @@ inline namespace SHORTSHOT_CODE {
 
 /// View of float points: Matrix3Xf, MatrixX3f, row- or column-major, or a Map of them with any strides. Borrowed.
 ///
-/// `channels`: a matrix of bytes r g b for colors, a matrix of floats for normals, or both, of either shape. bad_view
-/// if the numbers of points differ.
+/// `channels`: a matrix of bytes r g b for colors, a matrix of floats for normals, or both, of either shape.
+/// sizes_differ if the numbers of points do.
 template <class Matrix, class... Channels>
 [[nodiscard]] CloudView view_eigen(const Matrix& xyz, const Channels&... channels) noexcept {
   static_assert(std::is_same<typename Matrix::Scalar, float>::value, "view_eigen() supports float coordinates");

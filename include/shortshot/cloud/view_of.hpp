@@ -110,8 +110,8 @@ template <class Container>
 }
 
 /// The same with normals from a second container of structs with members normal_x, normal_y, normal_z, such as a
-/// pcl::PointCloud<pcl::Normal>; normals that the points have themselves are not read. bad_view if the numbers of
-/// structs differ.
+/// pcl::PointCloud<pcl::Normal>; normals that the points have themselves are not read. sizes_differ if the numbers of
+/// structs do.
 template <class Container, class Normals, class = detail::IfContainer<Normals>>
 [[nodiscard]] CloudView view_of(const Container& cloud, const Normals& normals) noexcept {
   const auto& structs = detail::structs_of(normals);
@@ -119,7 +119,7 @@ template <class Container, class Normals, class = detail::IfContainer<Normals>>
   static_assert(detail::HasNormal<Struct>::value,
                 "view_of() supports normals with float members normal_x, normal_y and normal_z");
   CloudView view = view_of(cloud);
-  if (std::size(structs) != view.size) return detail::unusable_view();
+  if (std::size(structs) != view.size) return detail::unusable_view(Status::sizes_differ);
   view.normals = detail::normals_of(std::data(structs), std::size(structs));
   return view;
 }

@@ -30,7 +30,10 @@ template <class Name>
   return name == text;
 }
 
-/// Offset of a field with this name and a readable type, or -1.
+inline constexpr std::int64_t no_field = -1;       ///< of this name and a readable type
+inline constexpr std::int64_t outside_point = -2;  ///< there is one, but it ends behind its point
+
+/// Offset of a field with this name and a readable type, or one of these.
 template <class Message>
 [[nodiscard]] std::int64_t offset_of(const Message& message, const char* name, bool packed_color) noexcept {
   for (const auto& field : message.fields) {
@@ -38,9 +41,10 @@ template <class Message>
     const int type = static_cast<int>(field.datatype);
     const bool readable = type == field_float32 || (packed_color && type == field_uint32);
     const bool inside = static_cast<std::uint64_t>(field.offset) + 4 <= static_cast<std::uint64_t>(message.point_step);
-    return readable && inside ? static_cast<std::int64_t>(field.offset) : -1;
+    if (!readable) return no_field;
+    return inside ? static_cast<std::int64_t>(field.offset) : outside_point;
   }
-  return -1;
+  return no_field;
 }
 
 /// The channel of a field `intensity` of FLOAT32, UINT8 or UINT16; absent if there is none.
@@ -72,25 +76,26 @@ inline namespace SHORTSHOT_CODE {
 /// 0xAARRGGBB packed into it; normals are FLOAT32 fields normal_x, normal_y, normal_z; an intensity is a FLOAT32,
 /// UINT8 or UINT16. The view borrows the message's bytes.
 ///
-/// Statuses: empty_cloud (no point); bad_view (and an empty view): no x, y or z of that type, a field outside
-/// point_step, data shorter than width * height points, padded rows, or the other byte order. No allocation.
+/// Statuses (and an empty view): empty_cloud (no point), no_coordinates, field_outside, other_byte_order, padded_rows,
+/// short_data. Colors, normals or intensities that cannot be read are absent. No allocation.
 template <class Message>
 [[nodiscard]] Status view_point_cloud2(const Message& message, CloudView& view) noexcept {
   view = CloudView{};
   const std::int64_t x = detail::offset_of(message, "x", false);
   const std::int64_t y = detail::offset_of(message, "y", false);
   const std::int64_t z = detail::offset_of(message, "z", false);
-  if (x < 0 || y < 0 || z < 0) return Status::bad_view;
-  if (static_cast<bool>(message.is_bigendian) == detail::is_little_endian()) return Status::bad_view;
+  if (x == detail::no_field || y == detail::no_field || z == detail::no_field) return Status::no_coordinates;
+  if (x < 0 || y < 0 || z < 0) return Status::field_outside;
+  if (static_cast<bool>(message.is_bigendian) == detail::is_little_endian()) return Status::other_byte_order;
 
   const auto step = static_cast<std::size_t>(message.point_step);
   const auto width = static_cast<std::size_t>(message.width);
   const auto height = static_cast<std::size_t>(message.height);
   if (height > 1 && static_cast<std::uint64_t>(message.row_step) != static_cast<std::uint64_t>(width) * step) {
-    return Status::bad_view;
+    return Status::padded_rows;
   }
   if (width == 0 || height == 0) return Status::empty_cloud;
-  if (message.data.size() / step / width < height) return Status::bad_view;
+  if (message.data.size() / step / width < height) return Status::short_data;
 
   const auto* data = reinterpret_cast<const unsigned char*>(message.data.data());
   view.points = {data + x, data + y, data + z, step};

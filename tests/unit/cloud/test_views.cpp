@@ -247,10 +247,10 @@ TEST_CASE("views: normals for another number of points are refused") {
     return ss::validate(ss::view_of(p, n));
   };
   CHECK(refused(points, count) == Status::ok);
-  CHECK(refused(points, count - 1) == Status::bad_view);
-  CHECK(refused(points, 0) == Status::bad_view);
-  CHECK(refused(one, 2) == Status::bad_view);
-  CHECK(refused(none, 3) == Status::bad_view);
+  CHECK(refused(points, count - 1) == Status::sizes_differ);
+  CHECK(refused(points, 0) == Status::sizes_differ);
+  CHECK(refused(one, 2) == Status::sizes_differ);
+  CHECK(refused(none, 3) == Status::sizes_differ);
   CHECK(refused(none, 0) == Status::empty_cloud);
 }
 

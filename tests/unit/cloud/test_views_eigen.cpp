@@ -126,10 +126,10 @@ TEST_CASE("eigen views: a matrix of floats beside the points holds normals, with
   check_normals(ss::view_eigen(rows, normals, colors), true);
   CHECK_FALSE(ss::has_normals(ss::view_eigen(rows, colors)));
   const ColumnPoints too_few = normals.leftCols(1), none(3, 0);
-  CHECK(ss::validate(ss::view_eigen(rows, too_few)) == Status::bad_view);
-  CHECK(ss::validate(ss::view_eigen(rows, colors, none)) == Status::bad_view);
+  CHECK(ss::validate(ss::view_eigen(rows, too_few)) == Status::sizes_differ);
+  CHECK(ss::validate(ss::view_eigen(rows, colors, none)) == Status::sizes_differ);
   CHECK(ss::validate(ss::view_eigen(rows, none, too_few)) ==
-        Status::bad_view);  // not even as one point with one normal
+        Status::sizes_differ);  // not even as one point with one normal
 }
 
 TEST_CASE("eigen views: a matrix that dies at the end of the statement cannot be viewed, a map can") {

@@ -9,6 +9,7 @@
 
 #include "fixtures.hpp"
 #include "recognition_statuses.hpp"
+#include "view_statuses.hpp"
 
 namespace {
 
@@ -104,6 +105,7 @@ TEST_CASE("status: every value is reached by some call") {
       describe_into_garbage<ss::IntensityShape336>(cloud.view(), std::size_t{0}),
   };
   reached.merge(reached_by_recognition(upright));
+  reached.merge(reached_by_views());
   ss::Features<D> features;
   REQUIRE(ss::extract(cloud.view(), ss::BruteSearch{cloud.view()}, std::vector{1, 2}, radius, features) == Status::ok);
   REQUIRE(ss::keep_best_frames(features, 0.5f) == Status::ok);
