@@ -1,8 +1,9 @@
 #!/bin/sh
-# count_names.sh COMPILER INCLUDE AT_MOST: how many different names stand in namespace shortshot itself, types and code, for
+# count_names.sh INCLUDE AT_MOST: how many different names stand in namespace shortshot itself, types and code, for
 # everybody who writes `using namespace shortshot`? Counted in the headers' text: declarations at a namespace's own level.
 set -eu
-names=$(find "$2/shortshot" -name '*.hpp' | xargs awk '
+# shellcheck disable=SC2016  # the program's own $
+names=$(find "$1/shortshot" -name '*.hpp' -exec awk '
   FNR == 1 { inside = 0 }
   /^namespace shortshot \{$/ { inside = 1; next }
   /^}  \/\/ namespace shortshot$/ { inside = 0; next }
@@ -17,8 +18,8 @@ names=$(find "$2/shortshot" -name '*.hpp' | xargs awk '
     } else if (match(line, /[A-Za-z_0-9]+(\(|;)/)) {
       name = substr(line, RSTART, RLENGTH - 1); if (name !~ /^(namespace|static_assert)$/) print name
     }
-  }' | LC_ALL=C sort -u)
+  }' {} + | LC_ALL=C sort -u)
 count=$(printf '%s\n' "$names" | grep -c .)
-echo "$count names in shortshot, at most $3"
-[ "$count" -le "$3" ] || { printf '%s\n' "$names"; exit 1; }
+echo "$count names in shortshot, at most $2"
+[ "$count" -le "$2" ] || { printf '%s\n' "$names"; exit 1; }
 [ "$count" -gt 60 ]  # less would mean that nothing is counted
