@@ -2708,8 +2708,10 @@ inline namespace SHORTSHOT_TYPES {
 /// What lies beyond the last cell of an axis: nothing (radius, elevation, signal) or the first cell (azimuth).
 enum class Beyond : std::uint8_t { nothing, first_cell };
 
-/// What positions below zero mean, by as much as a cell: there are none, the rest of the first cell (logarithmic
-/// shells), or no place on this axis at all (the azimuth of a point on the frame's z axis, by SHOT's convention).
+/// A position on an axis counts cells from the axis' beginning. What is one below zero?
+/// never: there is none. first_cell: a place in the first cell; logarithmic shells have no beginning, and the innermost
+/// one holds whatever is closer. nowhere: no place on this axis; by SHOT's convention a point on the frame's z axis has
+/// no azimuth.
 enum class BelowZero : std::uint8_t { never, first_cell, nowhere };
 
 /// One axis of a part: its number of cells, the distance of two neighboring cells in the descriptor, and its ends.
@@ -4445,7 +4447,7 @@ inline void measure_all_by_index(SignalList<Signals...>, const Sources& sources,
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// A frame in all lanes: a copy, which no store can change. (Small code does without: it takes the frame's own floats.)
+/// A frame in all lanes, and a copy (see Collector). (Small code does without: it takes the frame's own floats.)
 struct FrameLanes {
   simd::F32 x[3], y[3], z[3];
   explicit FrameLanes(const Frame& frame) noexcept {
@@ -4739,8 +4741,8 @@ constexpr int common_divisor(int a, int b) noexcept { return b == 0 ? a : common
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
 
-/// One chunk into parts that have one grid: points are shared among its cells once for all of them. (`unit` is a copy,
-/// which no store can change.)
+/// One chunk into parts that have one grid: points are shared among its cells once for all of them. (`unit` is a
+/// copy: see Collector.)
 template <class Voting, class Chunk, class First, class... Others>
 inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& first, Others&&... others) noexcept {
   using Part = typename std::decay_t<First>::Part;
@@ -5633,7 +5635,7 @@ class Grid {
       sort_by_two_passes(cloud, memory);
       return;
     }
-    const Memory to = memory;  // a copy that no store can change stays in registers; so below
+    const Memory to = memory;  // a local, see Collector; so below
     const std::size_t cells = box_.cells();
     const bool roomy = to.xyz != nullptr && points_ >= 2 * simd::lanes;
     const CellNotes notes{roomy ? to.xyz : nullptr, points_};

@@ -11,8 +11,10 @@ inline namespace SHORTSHOT_TYPES {
 /// What lies beyond the last cell of an axis: nothing (radius, elevation, signal) or the first cell (azimuth).
 enum class Beyond : std::uint8_t { nothing, first_cell };
 
-/// What positions below zero mean, by as much as a cell: there are none, the rest of the first cell (logarithmic
-/// shells), or no place on this axis at all (the azimuth of a point on the frame's z axis, by SHOT's convention).
+/// A position on an axis counts cells from the axis' beginning. What is one below zero?
+/// never: there is none. first_cell: a place in the first cell; logarithmic shells have no beginning, and the innermost
+/// one holds whatever is closer. nowhere: no place on this axis; by SHOT's convention a point on the frame's z axis has
+/// no azimuth.
 enum class BelowZero : std::uint8_t { never, first_cell, nowhere };
 
 /// One axis of a part: its number of cells, the distance of two neighboring cells in the descriptor, and its ends.

@@ -125,8 +125,8 @@ constexpr int common_divisor(int a, int b) noexcept { return b == 0 ? a : common
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
 
-/// One chunk into parts that have one grid: points are shared among its cells once for all of them. (`unit` is a copy,
-/// which no store can change.)
+/// One chunk into parts that have one grid: points are shared among its cells once for all of them. (`unit` is a
+/// copy: see Collector.)
 template <class Voting, class Chunk, class First, class... Others>
 inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& first, Others&&... others) noexcept {
   using Part = typename std::decay_t<First>::Part;

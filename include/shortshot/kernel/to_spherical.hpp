@@ -20,7 +20,7 @@
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// A frame in all lanes: a copy, which no store can change. (Small code does without: it takes the frame's own floats.)
+/// A frame in all lanes, and a copy (see Collector). (Small code does without: it takes the frame's own floats.)
 struct FrameLanes {
   simd::F32 x[3], y[3], z[3];
   explicit FrameLanes(const Frame& frame) noexcept {

@@ -82,7 +82,7 @@ class Grid {
       sort_by_two_passes(cloud, memory);
       return;
     }
-    const Memory to = memory;  // a copy that no store can change stays in registers; so below
+    const Memory to = memory;  // a local, see Collector; so below
     const std::size_t cells = box_.cells();
     const bool roomy = to.xyz != nullptr && points_ >= 2 * simd::lanes;
     const CellNotes notes{roomy ? to.xyz : nullptr, points_};
