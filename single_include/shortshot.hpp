@@ -1074,14 +1074,14 @@ inline namespace SHORTSHOT_CODE {
 /// The upper triangle of a symmetric N x N matrix in each lane, row by row: xx, xy, xz, yy, yz, zz.
 template <int N>
 struct SymmetricMatrices {
-  simd::F32 entry[N * (N + 1) / 2];
+  simd::F32 entry[static_cast<std::size_t>(N * (N + 1) / 2)];
 };
 using SymmetricLanes = SymmetricMatrices<3>;
 
 /// Eigenvectors of unit length, each followed by its eigenvalue, which ascend. Signs are the solver's.
 template <int N>
 struct Eigenvectors {
-  simd::F32 of[N][N + 1];
+  simd::F32 of[static_cast<std::size_t>(N)][static_cast<std::size_t>(N + 1)];
 
   [[nodiscard]] simd::F32 value(int i) const noexcept { return of[i][N]; }
   [[nodiscard]] simd::F32 vector(int i, int k) const noexcept { return of[i][k]; }
@@ -1092,7 +1092,7 @@ using EigenLanes = Eigenvectors<3>;
 template <int N>
 struct Couplings {
   static_assert(N == 3 || N == 4, "numbers of pairs of axes are known for these");
-  simd::F32 of[N * (N - 1) / 2];
+  simd::F32 of[static_cast<std::size_t>(N * (N - 1) / 2)];
 
   [[nodiscard]] simd::F32& between(int i, int k) noexcept {
     if constexpr (N == 3) return of[3 - i - k];  // has the number of the third axis: quickly found
@@ -1187,8 +1187,8 @@ template <int N = 3>
 
   // Sort: exchange neighbors, from 0 and 1 to the last ones, again and again; at last 0 and 1.
   repeat<N, (N - 1) * (N - 2) + 1>([&](auto step) SHORTSHOT_INLINE_LAMBDA {
-    F32(&first)[N + 1] = e.of[step % (N - 1)];
-    F32(&second)[N + 1] = e.of[step % (N - 1) + 1];
+    auto& first = e.of[step % (N - 1)];
+    auto& second = e.of[step % (N - 1) + 1];
     const simd::Mask swap = second[N] < first[N];
     if (!any(swap)) return;
     repeat<N, N + 1>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
@@ -1198,7 +1198,7 @@ template <int N = 3>
     });
   });
   repeat<N, N>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
-    F32(&v)[N + 1] = e.of[i];
+    auto& v = e.of[i];
     F32 squares = v[0] * v[0];
     unroll<N - 1>([&](auto k) { squares = squares + v[k + 1] * v[k + 1]; });
     const F32 length = simd::sqrt(squares);
@@ -3433,8 +3433,8 @@ struct Share {
 /// The votes of one point: `Count` indices into the part and their weights, in units.
 template <int Count>
 struct Votes {
-  simd::I32 index[Count];
-  simd::I32 weight[Count];
+  simd::I32 index[static_cast<std::size_t>(Count)];
+  simd::I32 weight[static_cast<std::size_t>(Count)];
 };
 
 /// The cell of a position. The very end of the axis is the upper border of the last cell.
@@ -4487,7 +4487,7 @@ template <std::uint32_t ChunkSize>
 template <int Values>
 struct Located {
   simd::F32 distance, elevation, azimuth;
-  simd::F32 values[Values + (Values == 0 ? 1 : 0)];  // an array has one or more
+  simd::F32 values[static_cast<std::size_t>(Values + (Values == 0 ? 1 : 0))];  // an array has one or more
   simd::Mask described;
 };
 
@@ -6151,7 +6151,7 @@ template <int Group>
 struct Subsets {
   static constexpr int count = 1 << Group;
   static constexpr unsigned whole = (1u << Group) - 1u;
-  std::uint8_t of[count];
+  std::uint8_t of[static_cast<std::size_t>(count)];
 
   constexpr Subsets() noexcept : of{} {
     int place = count - 1;  // of the empty one
@@ -6239,7 +6239,7 @@ template <int Group, int Values>
 template <int Group>
 [[gnu::always_inline]] inline void find_subsets(const float* values, std::int32_t* places) noexcept {
   constexpr auto stride = static_cast<std::size_t>(Group);
-  simd::F32 v[Group];
+  simd::F32 v[static_cast<std::size_t>(Group)];
   unroll<Group>([&](auto i) { v[i] = simd::from_lanes([&](std::size_t k) { return values[k * stride + i]; }); });
   const simd::F32 sum = sum_of<Subsets<Group>::whole>(v);
   const simd::I32 empty = simd::drop(sum != simd::all(0.0f), simd::all_int(Subsets<Group>::count - 1));
@@ -9341,8 +9341,8 @@ class Samples {
     std::size_t b = below(count_ - 1);
     b += b >= a ? 1 : 0;
     std::size_t c = below(count_ - 2);
-    c += c >= std::min(a, b) ? 1 : 0;
-    c += c >= std::max(a, b) ? 1 : 0;
+    c += c >= std::min(a, b) ? 1u : 0u;
+    c += c >= std::max(a, b) ? 1u : 0u;
     return {a, b, c};
   }
 
@@ -9381,7 +9381,7 @@ struct Consensus {
   }
   [[nodiscard]] std::size_t count(const Pose& pose) const noexcept {
     std::size_t count = 0;
-    for (const PointPair& pair : pairs) count += agrees(pose, pair) ? 1 : 0;
+    for (const PointPair& pair : pairs) count += agrees(pose, pair) ? 1u : 0u;
     return count;
   }
   void find(const Pose& pose, std::vector<std::uint32_t>& inliers) const {

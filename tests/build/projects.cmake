@@ -20,7 +20,7 @@ build_test(install "${CMAKE_COMMAND}" --install "${PROJECT_BINARY_DIR}" --prefix
 function(consumer name before main)
   build_test(consumer.${name} "${CMAKE_CTEST_COMMAND}" --build-and-test "${here}/consumer" "${there}/consumer/${name}"
     --build-generator "${CMAKE_GENERATOR}" --build-options "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}"
-    "-DMAIN=${main}" ${ARGN} --test-command consumer)
+    "-DCMAKE_CXX_FLAGS=-Wall -Wextra -Wconversion -Wsign-conversion -Werror" "-DMAIN=${main}" ${ARGN} --test-command consumer)
   depends(consumer.${name} ${before})
 endfunction()
 set(quick_start "${there}/readme/quick_start_cmake.cpp")

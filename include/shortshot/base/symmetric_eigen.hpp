@@ -7,6 +7,8 @@
 // every matrix, so a register's lanes hold as many matrices, each with the bits that it would have alone.
 #pragma once
 
+#include <cstddef>
+
 #include "../config.hpp"
 #include "simd.hpp"
 #include "unroll.hpp"
@@ -17,14 +19,14 @@ inline namespace SHORTSHOT_CODE {
 /// The upper triangle of a symmetric N x N matrix in each lane, row by row: xx, xy, xz, yy, yz, zz.
 template <int N>
 struct SymmetricMatrices {
-  simd::F32 entry[N * (N + 1) / 2];
+  simd::F32 entry[static_cast<std::size_t>(N * (N + 1) / 2)];
 };
 using SymmetricLanes = SymmetricMatrices<3>;
 
 /// Eigenvectors of unit length, each followed by its eigenvalue, which ascend. Signs are the solver's.
 template <int N>
 struct Eigenvectors {
-  simd::F32 of[N][N + 1];
+  simd::F32 of[static_cast<std::size_t>(N)][static_cast<std::size_t>(N + 1)];
 
   [[nodiscard]] simd::F32 value(int i) const noexcept { return of[i][N]; }
   [[nodiscard]] simd::F32 vector(int i, int k) const noexcept { return of[i][k]; }
@@ -35,7 +37,7 @@ using EigenLanes = Eigenvectors<3>;
 template <int N>
 struct Couplings {
   static_assert(N == 3 || N == 4, "numbers of pairs of axes are known for these");
-  simd::F32 of[N * (N - 1) / 2];
+  simd::F32 of[static_cast<std::size_t>(N * (N - 1) / 2)];
 
   [[nodiscard]] simd::F32& between(int i, int k) noexcept {
     if constexpr (N == 3) return of[3 - i - k];  // has the number of the third axis: quickly found
@@ -130,8 +132,8 @@ template <int N = 3>
 
   // Sort: exchange neighbors, from 0 and 1 to the last ones, again and again; at last 0 and 1.
   repeat<N, (N - 1) * (N - 2) + 1>([&](auto step) SHORTSHOT_INLINE_LAMBDA {
-    F32(&first)[N + 1] = e.of[step % (N - 1)];
-    F32(&second)[N + 1] = e.of[step % (N - 1) + 1];
+    auto& first = e.of[step % (N - 1)];
+    auto& second = e.of[step % (N - 1) + 1];
     const simd::Mask swap = second[N] < first[N];
     if (!any(swap)) return;
     repeat<N, N + 1>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
@@ -141,7 +143,7 @@ template <int N = 3>
     });
   });
   repeat<N, N>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
-    F32(&v)[N + 1] = e.of[i];
+    auto& v = e.of[i];
     F32 squares = v[0] * v[0];
     unroll<N - 1>([&](auto k) { squares = squares + v[k + 1] * v[k + 1]; });
     const F32 length = simd::sqrt(squares);

@@ -5,6 +5,7 @@
 // kept twice, in half units, because it is the distance from the bin's middle in units of half a bin.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "../base/simd.hpp"
@@ -35,8 +36,8 @@ struct Share {
 /// The votes of one point: `Count` indices into the part and their weights, in units.
 template <int Count>
 struct Votes {
-  simd::I32 index[Count];
-  simd::I32 weight[Count];
+  simd::I32 index[static_cast<std::size_t>(Count)];
+  simd::I32 weight[static_cast<std::size_t>(Count)];
 };
 
 /// The cell of a position. The very end of the axis is the upper border of the last cell.

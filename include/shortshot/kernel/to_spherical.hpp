@@ -60,7 +60,7 @@ template <std::uint32_t ChunkSize>
 template <int Values>
 struct Located {
   simd::F32 distance, elevation, azimuth;
-  simd::F32 values[Values + (Values == 0 ? 1 : 0)];  // an array has one or more
+  simd::F32 values[static_cast<std::size_t>(Values + (Values == 0 ? 1 : 0))];  // an array has one or more
   simd::Mask described;
 };
 

@@ -55,8 +55,8 @@ class Samples {
     std::size_t b = below(count_ - 1);
     b += b >= a ? 1 : 0;
     std::size_t c = below(count_ - 2);
-    c += c >= std::min(a, b) ? 1 : 0;
-    c += c >= std::max(a, b) ? 1 : 0;
+    c += c >= std::min(a, b) ? 1u : 0u;
+    c += c >= std::max(a, b) ? 1u : 0u;
     return {a, b, c};
   }
 
@@ -95,7 +95,7 @@ struct Consensus {
   }
   [[nodiscard]] std::size_t count(const Pose& pose) const noexcept {
     std::size_t count = 0;
-    for (const PointPair& pair : pairs) count += agrees(pose, pair) ? 1 : 0;
+    for (const PointPair& pair : pairs) count += agrees(pose, pair) ? 1u : 0u;
     return count;
   }
   void find(const Pose& pose, std::vector<std::uint32_t>& inliers) const {

@@ -46,7 +46,7 @@ template <int Group>
 struct Subsets {
   static constexpr int count = 1 << Group;
   static constexpr unsigned whole = (1u << Group) - 1u;
-  std::uint8_t of[count];
+  std::uint8_t of[static_cast<std::size_t>(count)];
 
   constexpr Subsets() noexcept : of{} {
     int place = count - 1;  // of the empty one
@@ -134,7 +134,7 @@ template <int Group, int Values>
 template <int Group>
 [[gnu::always_inline]] inline void find_subsets(const float* values, std::int32_t* places) noexcept {
   constexpr auto stride = static_cast<std::size_t>(Group);
-  simd::F32 v[Group];
+  simd::F32 v[static_cast<std::size_t>(Group)];
   unroll<Group>([&](auto i) { v[i] = simd::from_lanes([&](std::size_t k) { return values[k * stride + i]; }); });
   const simd::F32 sum = sum_of<Subsets<Group>::whole>(v);
   const simd::I32 empty = simd::drop(sum != simd::all(0.0f), simd::all_int(Subsets<Group>::count - 1));
