@@ -147,7 +147,8 @@ Table kept_table(const SetResults& set) {
     const std::string control = name_of({name.descriptor, {name.kept.percent, true}});
     if (!all && set.matchings.count(control) == 0) continue;
     std::vector<Cell> row{name.descriptor, std::size_t{name.kept.percent}};
-    for (const auto& [figure, digits] : {std::pair{precision, 3}, {right_matches, 1}, {success, 3}}) {
+    using Column = std::pair<double (*)(const Matching&), int>;  // a figure and its digits
+    for (const auto& [figure, digits] : {Column{precision, 3}, Column{right_matches, 1}, Column{success, 3}}) {
       row.emplace_back(text_of(over_pairs(set.figures(d, figure)), digits));
       row.emplace_back(all ? "" : text_of(over_pairs(set.figures(control, figure)), digits));
       row.emplace_back(all ? ""
