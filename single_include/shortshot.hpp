@@ -4305,6 +4305,8 @@ template <std::size_t MaxNeighbors, class Index>
 #ifndef SHORTSHOT_KERNEL_ACCUMULATE_HPP
 #define SHORTSHOT_KERNEL_ACCUMULATE_HPP
 
+#include <numeric>
+
 // shortshot/kernel/to_spherical.hpp: the kernel's first pass. A chunk of neighbors goes from offsets in the cloud's
 // coordinates to spherical coordinates in the frame.
 #ifndef SHORTSHOT_KERNEL_TO_SPHERICAL_HPP
@@ -4732,15 +4734,6 @@ inline void scatter(std::uint32_t size, float* out, const Votes&... votes) noexc
   }
 }
 
-}  // namespace SHORTSHOT_CODE
-inline namespace SHORTSHOT_TYPES {
-
-/// The greatest common divisor.
-constexpr int common_divisor(int a, int b) noexcept { return b == 0 ? a : common_divisor(b, a % b); }
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
 /// One chunk into parts that have one grid: points are shared among its cells once for all of them. (`unit` is a
 /// copy: see Collector.)
 template <class Voting, class Chunk, class First, class... Others>
@@ -4748,7 +4741,7 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& fi
   using Part = typename std::decay_t<First>::Part;
   constexpr int values = [] {
     int divisor = Part::values;
-    ((divisor = common_divisor(divisor, std::decay_t<Others>::Part::values)), ...);
+    ((divisor = std::gcd(divisor, std::decay_t<Others>::Part::values)), ...);
     return divisor;
   }();
   const std::uint32_t size = chunk.size;
@@ -5137,10 +5130,9 @@ inline namespace SHORTSHOT_CODE {
 /// `support`    radii and, if known, the camera's position; a plain float is the radius in meters
 /// `workspace`  a Workspace<MaxNeighbors> or a CompactWorkspace<MaxNeighbors>: all the memory there is
 /// `out`        D::size floats: the descriptor, L2 norm 1, or all zeros if the status is not ok
-/// `own`        sources of yours for D's signals, which come before those that the cloud has; a pointer to colors (Lab
-/// or
-///              PackedLab), one per point, that convert_colors() made by D's own rule: without them, bytes of neighbors
-///              are converted again for every key point
+/// `own`        sources of yours for D's signals, which come before those that the cloud has; a pointer to colors
+///              (Lab or PackedLab), one per point, that convert_colors() made by D's own rule: without them, bytes of
+///              neighbors are converted again for every key point
 ///
 /// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint,
 /// missing_colors, missing_normals, missing_intensities (of the cloud or the key point), bad_keypoint (the index),
@@ -6777,10 +6769,6 @@ template <class Policy>
   return Policy::name;
 }
 
-[[nodiscard]] constexpr int greatest_common_divisor(int a, int b) noexcept {
-  return b == 0 ? a : greatest_common_divisor(b, a % b);
-}
-
 /// What a radius scale's name leaves open.
 template <class Scale>
 struct ScaleParameters {
@@ -6789,7 +6777,7 @@ struct ScaleParameters {
 template <int Numerator, int Denominator>
 struct ScaleParameters<LogRadius<Numerator, Denominator>> {
   static void add_to(std::string& text) {
-    constexpr int common = greatest_common_divisor(Numerator, Denominator);
+    constexpr int common = std::gcd(Numerator, Denominator);
     add_all(text, " from ", Numerator / common, "/", Denominator / common);
   }
 };

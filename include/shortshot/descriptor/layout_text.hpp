@@ -2,6 +2,7 @@
 // knows descriptors only at run time. Hosted only: allocates.
 #pragma once
 
+#include <numeric>
 #include <string>
 #include <type_traits>
 
@@ -33,10 +34,6 @@ template <class Policy>
   return Policy::name;
 }
 
-[[nodiscard]] constexpr int greatest_common_divisor(int a, int b) noexcept {
-  return b == 0 ? a : greatest_common_divisor(b, a % b);
-}
-
 /// What a radius scale's name leaves open.
 template <class Scale>
 struct ScaleParameters {
@@ -45,7 +42,7 @@ struct ScaleParameters {
 template <int Numerator, int Denominator>
 struct ScaleParameters<LogRadius<Numerator, Denominator>> {
   static void add_to(std::string& text) {
-    constexpr int common = greatest_common_divisor(Numerator, Denominator);
+    constexpr int common = std::gcd(Numerator, Denominator);
     add_all(text, " from ", Numerator / common, "/", Denominator / common);
   }
 };

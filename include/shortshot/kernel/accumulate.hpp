@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <numeric>
 #include <type_traits>
 #include <utility>
 
@@ -116,15 +117,6 @@ inline void scatter(std::uint32_t size, float* out, const Votes&... votes) noexc
   }
 }
 
-}  // namespace SHORTSHOT_CODE
-inline namespace SHORTSHOT_TYPES {
-
-/// The greatest common divisor.
-constexpr int common_divisor(int a, int b) noexcept { return b == 0 ? a : common_divisor(b, a % b); }
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
 /// One chunk into parts that have one grid: points are shared among its cells once for all of them. (`unit` is a
 /// copy: see Collector.)
 template <class Voting, class Chunk, class First, class... Others>
@@ -132,7 +124,7 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& fi
   using Part = typename std::decay_t<First>::Part;
   constexpr int values = [] {
     int divisor = Part::values;
-    ((divisor = common_divisor(divisor, std::decay_t<Others>::Part::values)), ...);
+    ((divisor = std::gcd(divisor, std::decay_t<Others>::Part::values)), ...);
     return divisor;
   }();
   const std::uint32_t size = chunk.size;

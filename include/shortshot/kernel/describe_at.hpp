@@ -147,10 +147,9 @@ inline namespace SHORTSHOT_CODE {
 /// `support`    radii and, if known, the camera's position; a plain float is the radius in meters
 /// `workspace`  a Workspace<MaxNeighbors> or a CompactWorkspace<MaxNeighbors>: all the memory there is
 /// `out`        D::size floats: the descriptor, L2 norm 1, or all zeros if the status is not ok
-/// `own`        sources of yours for D's signals, which come before those that the cloud has; a pointer to colors (Lab
-/// or
-///              PackedLab), one per point, that convert_colors() made by D's own rule: without them, bytes of neighbors
-///              are converted again for every key point
+/// `own`        sources of yours for D's signals, which come before those that the cloud has; a pointer to colors
+///              (Lab or PackedLab), one per point, that convert_colors() made by D's own rule: without them, bytes of
+///              neighbors are converted again for every key point
 ///
 /// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint,
 /// missing_colors, missing_normals, missing_intensities (of the cloud or the key point), bad_keypoint (the index),
