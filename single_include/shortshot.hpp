@@ -2454,6 +2454,12 @@ inline void lab_by(const Root& root, const Rgb& rgb, Lab& lab) noexcept {
   }
 }
 
+/// to_lab(), written where it belongs: ARM's compilers copy a returned struct of three floats again and again.
+template <class Rule>
+[[gnu::always_inline]] inline void put_lab(const Rgb& rgb, Lab& lab) noexcept {
+  lab_by<Rule>([](int step) { return root_of_step<Rule>(step); }, rgb, lab);
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 
@@ -2466,7 +2472,7 @@ inline namespace SHORTSHOT_CODE {
 template <class Rule>
 [[nodiscard]] inline Lab to_lab(const Rgb& rgb) noexcept {
   Lab lab;
-  detail::lab_by<Rule>([](int step) { return detail::root_of_step<Rule>(step); }, rgb, lab);
+  detail::put_lab<Rule>(rgb, lab);
   return lab;
 }
 
@@ -2594,15 +2600,17 @@ struct RgbColors {
   static constexpr Channel channel = Channel::colors;
   using Rule = LabRule;
   ColorChannel bytes;  ///< the cloud's
-  Lab reference;
-  RgbColors(const CloudView& cloud, const Lab& color) noexcept : bytes(cloud.colors), reference(color) {}
+  Lab reference;       ///< the key point's
+  RgbColors(const CloudView& cloud, const Rgb& color) noexcept : bytes(cloud.colors) {
+    detail::put_lab<LabRule>(color, reference);
+  }
   [[nodiscard]] Status status() const noexcept { return bytes.r != nullptr ? Status::ok : Status::missing_colors; }
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept {
     return to_lab<LabRule>(extend::read(bytes, index));
   }
 
   [[nodiscard]] static RgbColors at(const CloudView& cloud, const KeyPoint& key) noexcept {
-    RgbColors colors(cloud, to_lab<LabRule>(key.color));
+    RgbColors colors(cloud, key.color);
     if (!key.has_color) colors.bytes.r = nullptr;
     return colors;
   }

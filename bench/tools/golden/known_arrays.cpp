@@ -17,7 +17,7 @@ shortshot::Status describe_by(const shortshot::Neighborhood& n, const shortshot:
   const shortshot::CloudNormals normals{cloud};
   if constexpr (D::needs_colors) {
     using Rule = typename D::LabRule;
-    const shortshot::RgbColors<Rule> colors{cloud, shortshot::to_lab<Rule>(key_color)};
+    const shortshot::RgbColors<Rule> colors{cloud, key_color};
     return shortshot::describe<D>(n, shortshot::sources(colors, normals), frame, radius, out);
   } else {
     return shortshot::describe<D>(n, normals, frame, radius, out);

@@ -41,15 +41,17 @@ struct RgbColors {
   static constexpr Channel channel = Channel::colors;
   using Rule = LabRule;
   ColorChannel bytes;  ///< the cloud's
-  Lab reference;
-  RgbColors(const CloudView& cloud, const Lab& color) noexcept : bytes(cloud.colors), reference(color) {}
+  Lab reference;       ///< the key point's
+  RgbColors(const CloudView& cloud, const Rgb& color) noexcept : bytes(cloud.colors) {
+    detail::put_lab<LabRule>(color, reference);
+  }
   [[nodiscard]] Status status() const noexcept { return bytes.r != nullptr ? Status::ok : Status::missing_colors; }
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept {
     return to_lab<LabRule>(extend::read(bytes, index));
   }
 
   [[nodiscard]] static RgbColors at(const CloudView& cloud, const KeyPoint& key) noexcept {
-    RgbColors colors(cloud, to_lab<LabRule>(key.color));
+    RgbColors colors(cloud, key.color);
     if (!key.has_color) colors.bytes.r = nullptr;
     return colors;
   }

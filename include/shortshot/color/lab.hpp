@@ -109,6 +109,12 @@ inline void lab_by(const Root& root, const Rgb& rgb, Lab& lab) noexcept {
   }
 }
 
+/// to_lab(), written where it belongs: ARM's compilers copy a returned struct of three floats again and again.
+template <class Rule>
+[[gnu::always_inline]] inline void put_lab(const Rgb& rgb, Lab& lab) noexcept {
+  lab_by<Rule>([](int step) { return root_of_step<Rule>(step); }, rgb, lab);
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 
@@ -121,7 +127,7 @@ inline namespace SHORTSHOT_CODE {
 template <class Rule>
 [[nodiscard]] inline Lab to_lab(const Rgb& rgb) noexcept {
   Lab lab;
-  detail::lab_by<Rule>([](int step) { return detail::root_of_step<Rule>(step); }, rgb, lab);
+  detail::put_lab<Rule>(rgb, lab);
   return lab;
 }
 

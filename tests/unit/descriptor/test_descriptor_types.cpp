@@ -106,7 +106,7 @@ TEST_CASE("descriptor types: a value's index says where the point lies, bin, she
   using D = ss::Scsh<Grid<2, 3, 4>, Grid<2, 3, 4>, 5, ss::HardVoting>;
   std::vector<float> out = unit::garbage<D>();
   const ss::Frame upright{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  const ss::RgbColors<D::LabRule> colors{cloud.view(), ss::to_lab<D::LabRule>({0, 0, 0})};
+  const ss::RgbColors<D::LabRule> colors{cloud.view(), {0, 0, 0}};
   REQUIRE(ss::describe<D>(n, colors, upright, 1.0f, out.data()) == ss::Status::ok);
   // r = 0.64: shell 1 of 2. theta = 62 degrees: cell 1 of 3. phi = 45: cell 2 of 4. Distance 0.38: bin 1 of 5.
   for (int i = 0; i < D::size; ++i) {

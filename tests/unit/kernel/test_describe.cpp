@@ -25,7 +25,7 @@ std::vector<float> by_steps(const TestCloud& cloud, const ss::KeyPoint& key, con
   REQUIRE(ss::BruteSearch{cloud.view()}.gather(key.position, widest, n) == Status::ok);
   ss::Frame frame{};
   REQUIRE(ss::estimate_frame(n, support.frame_radius, frame, support.viewpoint) == Status::ok);
-  const ss::RgbColors<ss::PublishedLab> colors{cloud.view(), ss::to_lab<ss::PublishedLab>(key.color)};
+  const ss::RgbColors<ss::PublishedLab> colors{cloud.view(), key.color};
   std::vector<float> out = garbage<D>();
   REQUIRE(ss::describe<D>(n, colors, frame, support.radius, out.data()) == Status::ok);
   return out;
@@ -84,8 +84,8 @@ TEST_CASE("describe: Lab converted beforehand gives the same bits as bytes conve
   REQUIRE(ss::BruteSearch{cloud.view()}.gather(cloud.at(5), 0.05f, n) == Status::ok);
   std::vector<float> before = garbage<D>(), meanwhile = garbage<D>();
   REQUIRE(ss::describe<D>(n, ss::LabColors{lab.data(), lab[5]}, upright, 0.05f, before.data()) == Status::ok);
-  REQUIRE(ss::describe<D>(n, ss::RgbColors<ss::PublishedLab>{cloud.view(), lab[5]}, upright, 0.05f, meanwhile.data()) ==
-          Status::ok);
+  REQUIRE(ss::describe<D>(n, ss::RgbColors<ss::PublishedLab>{cloud.view(), cloud.color_at(5)}, upright, 0.05f,
+                          meanwhile.data()) == Status::ok);
   CHECK(same_bits(before, meanwhile));
 }
 
@@ -101,7 +101,7 @@ TEST_CASE("describe: any number of neighbors in the middle of one cell adds up w
     Room room(copies);
     ss::Neighborhood n = room.neighborhood();
     REQUIRE(ss::BruteSearch{cloud.view()}.gather({0.0f, 0.0f, 0.0f}, 1.0f, n) == Status::ok);
-    const ss::RgbColors<ss::PublishedLab> colors{cloud.view(), ss::to_lab<ss::PublishedLab>({0, 0, 255})};
+    const ss::RgbColors<ss::PublishedLab> colors{cloud.view(), {0, 0, 255}};
     std::vector<float> out = garbage<OneCell>();
     REQUIRE(ss::describe<OneCell>(n, colors, upright, 1.0f, out.data()) == Status::ok);
     if (copies == 1) expected = out;

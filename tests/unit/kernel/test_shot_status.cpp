@@ -105,7 +105,7 @@ TEST_CASE("shot status: sources without memory say what is missing") {
   const ss::CloudNormals no_normals{without_normals(cloud)};
   CHECK(describe_kernel<Shape>(cloud, normals, upright) == Status::ok);
   CHECK(describe_kernel<Shape>(cloud, no_normals, upright) == Status::missing_normals);
-  const ss::RgbColors<Color::LabRule> colors{cloud.view(), ss::to_lab<Color::LabRule>(cloud.color_at(0))};
+  const ss::RgbColors<Color::LabRule> colors{cloud.view(), cloud.color_at(0)};
   const ss::RgbColors<Color::LabRule> no_colors{without_colors(cloud), {}};
   CHECK(describe_kernel<Color>(cloud, ss::sources(colors, normals), upright) == Status::ok);
   CHECK(describe_kernel<Color>(cloud, ss::sources(colors, no_normals), upright) == Status::missing_normals);
