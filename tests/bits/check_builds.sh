@@ -8,15 +8,24 @@ set -eu
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
 
 # check_builds.sh --compile DIRECTORY NAME COMPILER FLAGS...: one of them. Of contradicting flags the last one counts.
+# What reads and makes the input is compiled once for each CPU: a NAME that begins with "input_".
 if [ "$1" = --compile ]; then
+  directory=$2
   program=$2/$3
+  name=$3
   shift 3
   echo "$program: $*"
   cd "$root"
   set -- "$@" -std=c++17 -Wall -Wextra -Wconversion -Wshadow -Wdouble-promotion -Werror -Iinclude -Ibench
-  "$@" -ffp-contract=off -c -o "$program.scene.o" bench/tools/scene/tabletop.cpp  # what is described must be the same, too
-  exec "$@" -o "$program" \
-    tests/bits/hashes.cpp bench/tools/golden/case.cpp bench/tools/golden/array.cpp bench/tools/golden/known_arrays.cpp "$program.scene.o"
+  case $name in
+    input_*)
+      exec "$@" -ffp-contract=off -r -o "$program.o" \
+        bench/tools/golden/case.cpp bench/tools/golden/array.cpp bench/tools/scene/tabletop.cpp
+      ;;
+    *_neon) input=$directory/input_neon.o ;;
+    *) input=$directory/input_x86.o ;;
+  esac
+  exec "$@" -o "$program" tests/bits/hashes.cpp bench/tools/golden/known_arrays.cpp "$input"
 fi
 
 directory=$1
@@ -32,8 +41,12 @@ left_out() {
 build() {  # NAME COMPILER FLAGS...
   echo "$*" >>"$directory/builds"
 }
+input() {  # NAME COMPILER FLAGS...
+  echo "$*" >>"$directory/inputs"
+}
 
 [ "$(uname -m)" = x86_64 ] || { left_out "same bits of all builds, this is no x86-64"; exit $failed; }
+input input_x86 g++ -O2
 build gcc_sse2 g++ -O2  # what all others are compared with
 build gcc_sse2_Os g++ -Os
 build gcc_sse2_O3 g++ -O3
@@ -52,12 +65,15 @@ else
   left_out "AVX2 and fused multiply-adds, this CPU has no AVX2 or no FMA"
 fi
 if command -v aarch64-linux-gnu-g++ >/dev/null && command -v qemu-aarch64 >/dev/null; then
+  input input_neon aarch64-linux-gnu-g++ -O2
   build gcc_neon aarch64-linux-gnu-g++ -O2 -static  # GCC fuses by default, clang within expressions
   build clang_neon clang++ --target=aarch64-linux-gnu -O2 -static
 else
   left_out "NEON, there is no aarch64-linux-gnu-g++ or no qemu-aarch64"
 fi
-xargs -L 1 -P "$(nproc)" "$0" --compile "$directory" <"$directory/builds"
+for list in inputs builds; do
+  xargs -L 1 -P "$(nproc)" "$0" --compile "$directory" <"$directory/$list"
+done
 
 names=$(cut -d ' ' -f 1 "$directory/builds")
 for name in $names; do
