@@ -5092,15 +5092,11 @@ template <class D, class Place>
   if constexpr (std::is_integral<Place>::value) {
     const auto index = static_cast<std::size_t>(place);  // a negative one becomes far too large
     if (index >= cloud.size) return Status::bad_keypoint;
-    if constexpr (D::needs_colors) {
-      key = KeyPoint(point(cloud, index), color(cloud, index));
-    } else {
-      key = KeyPoint(point(cloud, index));
-    }
-    if constexpr (D::needs_intensities) {
-      key.intensity = intensity(cloud, index);
-      key.has_intensity = true;
-    }
+    key.position = point(cloud, index);
+    key.has_color = D::needs_colors;
+    key.has_intensity = D::needs_intensities;
+    if constexpr (D::needs_colors) key.color = color(cloud, index);
+    if constexpr (D::needs_intensities) key.intensity = intensity(cloud, index);
   } else {
     key = place;
   }
