@@ -3,6 +3,7 @@
 // <type_traits> and <utility> of the standard library.
 #pragma once
 
+#include "descriptor/compact.hpp"
 #include "frame/normal.hpp"
 #include "kernel/describe_at.hpp"
 #include "search/brute.hpp"
@@ -10,5 +11,6 @@
 #include "search/organized.hpp"
 #include "self_check.hpp"
 #include "store/binary.hpp"
+#include "store/nibbles.hpp"
 #include "store/quantize.hpp"
 #include "version.hpp"

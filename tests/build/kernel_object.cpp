@@ -16,6 +16,7 @@ shortshot::SurfaceNormal normals[max_points];
 shortshot::BinaryDescriptor<shortshot::Shot352> bits, last_bits;
 shortshot::ByteDescriptor<shortshot::Scsh336> bytes, last_bytes;
 volatile int bits_apart;
+shortshot::NibbleDescriptor<shortshot::ShapeColor95> nibbles, last_nibbles;
 volatile std::uint32_t bytes_apart;
 
 using Multilinear = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::MultilinearVoting>;
@@ -52,6 +53,16 @@ shortshot::Status describe_in_bytes(const shortshot::CloudView& cloud, std::size
   return status;
 }
 
+/// A compact one in nibbles.
+shortshot::Status describe_in_nibbles(const shortshot::CloudView& cloud, std::size_t index, float radius) {
+  const shortshot::Status status = describe<shortshot::ShapeColor95>(cloud, grid, index, radius);
+  if (status != shortshot::Status::ok) return status;
+  last_nibbles = nibbles;
+  shortshot::quantize(descriptor, nibbles);
+  bytes_apart = shortshot::squared_distance(nibbles, last_nibbles);
+  return status;
+}
+
 /// SHOT, CSHOT and B-SHOT, with normals of this cloud's own.
 shortshot::Status describe_with_normals(const shortshot::CloudView& points, std::size_t index, float radius) {
   using shortshot::Status;
@@ -85,6 +96,9 @@ extern "C" const float* describe_patch(const float* xyz, const unsigned char* rg
   if (status == Status::ok) status = describe_in_bytes(cloud, index, radius);
   if (status == Status::ok) status = describe_packed(cloud, index, radius);
   if (status == Status::ok) status = describe_with_normals(cloud, index, radius);
+  if (status == Status::ok) status = describe_in_nibbles(cloud, index, radius);
+  if (status == Status::ok) status = describe<shortshot::ShapeColor32>(cloud, grid, index, radius);
+  if (status == Status::ok) status = describe<shortshot::RoomColor95>(cloud, grid, index, radius);
   if (status == Status::ok) status = describe<shortshot::Scsh696>(cloud, shortshot::BruteSearch{cloud}, index, radius);
   if (status == Status::ok) status = image.build(shortshot::organized(cloud, width, count / width));
   if (status == Status::ok) status = describe<Multilinear>(cloud, image, index, radius);

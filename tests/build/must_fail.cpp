@@ -155,4 +155,13 @@ struct MuteRows {  // says how far apart two rows are, but not in what unit
 shortshot::Status wrong_rows(const MuteRows& rows, std::vector<shortshot::Match>& out) {
   return shortshot::nearest(rows, rows, 1, out);
 }
+#elif CASE == 31
+static_assert(shortshot::Descriptor<shortshot::MultilinearVoting,
+                                    shortshot::Part<Grid<1, 1, 1>, shortshot::ColorOffset<shortshot::LabAxis::L, 4>>,
+                                    shortshot::Part<Grid<1, 1, 1>, shortshot::ColorDistance<4>>>::compares_with_mean,
+              "");
+#elif CASE == 32
+static_assert(shortshot::CellMeans<Grid<2, 1, 4>, shortshot::HeightCells, shortshot::SignedRoots<600, 100>, 30,
+                                   shortshot::ColorDistance<1>>::size > 0,
+              "");
 #endif

@@ -139,7 +139,7 @@ class Extractor {
     const KeyPoint& key = out.keypoints[row];
     if (!is_finite(key.position)) return Status::invalid_keypoint;
     const Color* const converted = lab_.data();
-    const auto sources = detail::sources_at(Kinds{}, cloud, key, own..., converted);
+    const auto sources = detail::sources_at(Kinds{}, cloud, detail::key_for<D>(key), own..., converted);
     Status status = detail::status_of(Kinds{}, sources);
     if (status != Status::ok) return status;
     Neighborhood n;

@@ -35,6 +35,8 @@ inline namespace SHORTSHOT_TYPES {
 /// it, radius is laid out fastest and azimuth slowest, and a histogram has bins of equal width.
 struct PublishedCells {
   static constexpr const char* name = "published cells";  ///< for layout_of()
+  /// Are frames meant to look at the camera, where it is known?
+  static constexpr bool wants_viewpoint = false;
 
   template <class Grid>
   static constexpr extend::CellStrides strides{1, Grid::radial, Grid::radial* Grid::elevation};
@@ -64,6 +66,10 @@ struct PublishedCells {
     if constexpr (Exact) return detail::exact_distance(d2, local, radius, borders);
     return extend::simd::sqrt(d2) * extend::simd::all(1.0f / radius.value);
   }
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 elevation(const extend::PointLanes& local,
+                                                                    extend::simd::F32 from_axis, Radius) noexcept {
+    return extend::math::elevation(from_axis, local.z);
+  }
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 azimuth(const extend::PointLanes& local,
                                                                   extend::simd::F32) noexcept {
     return extend::math::azimuth(local.x, local.y);
@@ -87,6 +93,7 @@ struct PublishedCells {
 /// axis has no azimuth.
 struct ShotCells {
   static constexpr const char* name = "SHOT cells";
+  static constexpr bool wants_viewpoint = false;
 
   template <class Grid>
   static constexpr extend::CellStrides strides{Grid::elevation, 1, Grid::radial* Grid::elevation};
@@ -111,6 +118,10 @@ struct ShotCells {
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 distance(extend::simd::F32 d2, const extend::PointLanes&,
                                                                    Radius radius, float) noexcept {
     return extend::simd::sqrt(d2) * extend::simd::all(1.0f / radius.value);
+  }
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 elevation(const extend::PointLanes& local,
+                                                                    extend::simd::F32 from_axis, Radius) noexcept {
+    return extend::math::elevation(from_axis, local.z);
   }
   /// Below 0 on the z axis.
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 azimuth(const extend::PointLanes& local,
@@ -141,6 +152,26 @@ struct ShotCells {
   /// A border belongs to the cell below it.
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 of_scaled(extend::simd::F32 scaled) noexcept {
     return truncate_to_int(extend::simd::max(scaled, extend::simd::all(1.0f))) - extend::simd::all_int(1);
+  }
+};
+
+/// The published cells, but for elevation: a cell is a slice of heights over the tangent plane, from R / 2 above it
+/// down to R / 2 below, in place of a cone of angles. Surfaces are flat where they are small: most neighbors lie near
+/// the plane, where the cones' borders meet. Distances are as floats round them.
+struct HeightCells : PublishedCells {
+  static constexpr const char* name = "height cells";
+  static constexpr bool wants_viewpoint = true;  // a surface and its back are each other's mirror image in height
+
+  [[nodiscard, gnu::always_inline]] static constexpr int exact_borders(int) noexcept { return 1; }
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::Mask are_described(extend::simd::F32 d2, Radius radius) noexcept {
+    return (d2 > extend::simd::all(0.0f)) & (d2 < extend::simd::all(radius.squared));
+  }
+  /// How far below R / 2 over the plane, over R; cut off at both ends.
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 elevation(const extend::PointLanes& local, extend::simd::F32,
+                                                                    Radius radius) noexcept {
+    using namespace extend;
+    const simd::F32 depth = simd::all(0.5f) - local.z * simd::all(1.0f / radius.value);
+    return simd::max(simd::min(depth, simd::all(1.0f)), simd::all(0.0f));
   }
 };
 

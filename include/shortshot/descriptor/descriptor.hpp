@@ -10,6 +10,7 @@
 #include "axis.hpp"
 #include "concepts.hpp"
 #include "conventions.hpp"
+#include "finish_rules.hpp"
 #include "signals.hpp"
 #include "source_set.hpp"
 #include "spherical_grid.hpp"
@@ -35,7 +36,8 @@ inline namespace SHORTSHOT_TYPES {
 /// A spherical grid with a histogram of one signal in every cell.
 /// Layout: histogram bin fastest, then radius, elevation, azimuth (PublishedCells) or elevation, radius, azimuth
 /// (ShotCells).
-template <class GridType, class SignalType, class RadiusScale = LinearRadius, class CellConvention = PublishedCells>
+template <class GridType, class SignalType, class RadiusScale = LinearRadius, class CellConvention = PublishedCells,
+          class FinishRule = PlainSums>
 struct Part {
   static_assert(
       detail::IsSignal<SignalType>::value,
@@ -46,9 +48,14 @@ struct Part {
   using Signal = std::conditional_t<detail::IsSignal<SignalType>::value, SignalType, Occupancy>;  // one error is enough
   using Scale = RadiusScale;
   using Cells = CellConvention;
+  using Finish = FinishRule;
+  using Signals = typename detail::Distinct<detail::SignalList<>, Signal>::type;
+  using Sources = typename Signal::Sources;
   static constexpr bool has_histogram = Signal::has_histogram;
   static constexpr int values = has_histogram ? Cells::values(Signal::bins) : 1;  ///< of one cell
   static constexpr int size = Grid::cells * values;
+  static constexpr int weight_cells = 0;
+  static constexpr bool has_signs = false;  ///< values may be below 0
 
   /// Position of one value within the part.
   [[nodiscard, gnu::always_inline]] static constexpr int index(int r, int e, int a, int bin = 0) noexcept {
@@ -74,6 +81,35 @@ struct Part {
                                            {values, 1, extend::Beyond::nothing, extend::BelowZero::never, bits}};
 };
 
+/// A spherical grid with the means of some signed signals in every cell, drawn towards 0 where few points are: the sum
+/// of votes times values, over the sum of votes and `ShrinkPercent` / 100 of what a cell has on average. Layout: signal
+/// fastest, then radius, elevation, azimuth (as the convention lays out cells).
+template <class GridType, class CellConvention, class FinishRule, int ShrinkPercent, class... SignedSignals>
+struct CellMeans {
+  static_assert(sizeof...(SignedSignals) >= 1 && ((SignedSignals::is_signed) && ...),
+                "CellMeans<Grid, Cells, Finish, Shrink, Signals...> supports one or more signals with is_signed");
+  static_assert(ShrinkPercent >= 1, "CellMeans supports shrinkage of 1 percent or more: a cell may be empty");
+  using Grid = GridType;
+  using Scale = LinearRadius;
+  using Cells = CellConvention;
+  using Finish = FinishRule;
+  using Counts = Part<Grid, Occupancy, Scale, Cells>;     ///< the votes themselves
+  using Averaged = detail::SignalList<SignedSignals...>;  ///< in the order of the layout
+  using Signals = typename detail::Distinct<detail::SignalList<>, SignedSignals...>::type;
+  using Sources = typename detail::DistinctKinds<extend::SourceKinds<>, typename SignedSignals::Sources...>::type;
+  static constexpr int values = static_cast<int>(sizeof...(SignedSignals));  ///< of one cell
+  static constexpr int size = Grid::cells * values;
+  static constexpr int weight_cells = Grid::cells;  ///< sums of votes that are kept besides
+  static constexpr int shrink_percent = ShrinkPercent;
+  static constexpr bool has_signs = (SignedSignals::has_signs || ...);
+  static constexpr int bits = Counts::bits;
+
+  /// Position of the mean of signal `k` of one cell within the part.
+  [[nodiscard, gnu::always_inline]] static constexpr int index(int r, int e, int a, int k = 0) noexcept {
+    return k + values * Counts::index(r, e, a);
+  }
+};
+
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
 
@@ -81,14 +117,14 @@ namespace shortshot::detail {
 inline namespace SHORTSHOT_TYPES {
 
 /// The rule by which all of a descriptor's color parts convert colors; void if it has none.
-template <class... Signals>
+template <class SignalList>
 struct LabRuleOf {
   using type = void;
 };
 template <class Signal, class... Others>
-struct LabRuleOf<Signal, Others...> {
+struct LabRuleOf<SignalList<Signal, Others...>> {
   using Mine = typename Signal::Rule;
-  using Next = typename LabRuleOf<Others...>::type;
+  using Next = typename LabRuleOf<SignalList<Others...>>::type;
   static_assert(std::is_void<Mine>::value || std::is_void<Next>::value || std::is_same<Mine, Next>::value,
                 "Descriptor supports one color conversion for all its parts");
   using type = std::conditional_t<std::is_void<Mine>::value, Next, Mine>;
@@ -102,6 +138,16 @@ struct HaveOneGrid<First, Others...>
     : std::bool_constant<((std::is_same<typename First::Grid, typename Others::Grid>::value &&
                            std::is_same<typename First::Scale, typename Others::Scale>::value) &&
                           ...)> {};
+
+/// Do the color signals of a list compare with the mean color? None may if others do not.
+template <class... Signals>
+constexpr bool compare_with_mean(SignalList<Signals...>) noexcept {
+  constexpr bool mean = (std::is_same<typename Signals::Reference, MeanColor>::value || ...);
+  constexpr bool own = (std::is_same<typename Signals::Reference, KeyPointColor>::value || ...);
+  static_assert(!(mean && own),
+                "Descriptor supports one reference for all its color signals: KeyPointColor or MeanColor");
+  return mean;
+}
 
 /// The first of some types.
 template <class First, class...>
@@ -140,7 +186,7 @@ struct Descriptor {
   static_assert(size <= 65536, "Descriptor supports up to 65536 values");
 
   /// The kinds of sources that its signals read, each once, and whether a channel of the cloud is among them.
-  using Sources = typename detail::DistinctKinds<extend::SourceKinds<>, typename Parts::Signal::Sources...>::type;
+  using Sources = typename detail::DistinctKinds<extend::SourceKinds<>, typename Parts::Sources...>::type;
   [[nodiscard, gnu::always_inline]] static constexpr bool needs(Channel channel) noexcept {
     return detail::reads_channel(Sources{}, channel);
   }
@@ -149,12 +195,17 @@ struct Descriptor {
   static constexpr bool needs_intensities = needs(Channel::intensities);
 
   /// The signals that are measured, each once.
-  using Signals = typename detail::Distinct<detail::SignalList<>, typename Parts::Signal...>::type;
-  using LabRule = typename detail::LabRuleOf<typename Parts::Signal...>::type;
+  using Signals = typename detail::DistinctOf<detail::SignalList<>, typename Parts::Signals...>::type;
+  using LabRule = typename detail::LabRuleOf<Signals>::type;
+  /// Are colors compared with the neighborhood's mean? Then key points need none.
+  static constexpr bool compares_with_mean = detail::compare_with_mean(Signals{});
 
   using Cells = typename detail::FirstOf<typename Parts::Cells...>::type;
   static_assert((std::is_same<typename Parts::Cells, Cells>::value && ...),
                 "Descriptor supports one cell convention for all its parts");
+
+  /// Meant for frames that are turned to the camera: tools that know where it was tell support's viewpoint.
+  static constexpr bool wants_viewpoint = Cells::wants_viewpoint;
 
   /// Fewest bits behind the point of positions along its axes.
   static constexpr int position_bits = [] {
@@ -171,10 +222,22 @@ struct Descriptor {
     return Cells::exact_borders(borders);
   }();
 
+  /// Do sums become values as they are?
+  static constexpr bool is_plain = (std::is_same<typename Parts::Finish, PlainSums>::value && ...);
+  /// Sums of votes that its CellMeans keep besides the values.
+  static constexpr int weight_cells = (Parts::weight_cells + ...);
+
   /// First value of part `i` (of `parts` ones), and the end of the last part.
   static constexpr int parts = static_cast<int>(sizeof...(Parts));
   [[nodiscard, gnu::always_inline]] static constexpr int offset(int i) noexcept {
     constexpr int sizes[] = {Parts::size...};
+    int sum = 0;
+    for (int k = 0; k < i && k < parts; ++k) sum += sizes[k];
+    return sum;
+  }
+  /// The same of its sums of votes.
+  [[nodiscard, gnu::always_inline]] static constexpr int weight_offset(int i) noexcept {
+    constexpr int sizes[] = {Parts::weight_cells...};
     int sum = 0;
     for (int k = 0; k < i && k < parts; ++k) sum += sizes[k];
     return sum;

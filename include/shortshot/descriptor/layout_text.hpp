@@ -47,16 +47,61 @@ struct ScaleParameters<LogRadius<Numerator, Denominator>> {
   }
 };
 
+/// What a part's finish says of itself; nothing where sums are its values.
+template <class Finish>
+struct FinishText {
+  static void add_to(std::string& text) { add_all(text, ", ", name_of<Finish>()); }
+};
+template <>
+struct FinishText<PlainSums> {
+  static void add_to(std::string&) {}
+};
+template <int PerMille>
+struct FinishText<RootOfShares<PerMille>> {
+  static void add_to(std::string& text) {
+    add_all(text, ", ", name_of<RootOfShares<PerMille>>(), ", length ", PerMille, "/1000");
+  }
+};
+template <int PerMille, int FloorPercent>
+struct FinishText<SignedRoots<PerMille, FloorPercent>> {
+  static void add_to(std::string& text) {
+    add_all(text, ", ", name_of<SignedRoots<PerMille, FloorPercent>>(), ", length ", PerMille, "/1000, floor ",
+            FloorPercent, "/100");
+  }
+};
+
+template <class Signal>
+void add_color(std::string& text) {
+  if constexpr (!std::is_void<typename Signal::Rule>::value) {
+    add_all(text, " (", name_of<typename Signal::Rule>());
+    if constexpr (std::is_same<typename Signal::Reference, MeanColor>::value)
+      add_all(text, " from ", name_of<MeanColor>());
+    add(text, ")");
+  }
+}
+
+template <class First, class... Others>
+void add_means(std::string& text, SignalList<First, Others...>) {
+  add_all(text, "means of ", name_of<First>());
+  (add_all(text, " & ", name_of<Others>()), ...);
+  add_color<First>(text);
+}
+
 template <class Part>
 void add_part(std::string& text) {
-  using Signal = typename Part::Signal;
   using Grid = typename Part::Grid;
-  using Scale = typename Part::Scale;
-  add(text, name_of<Signal>());
-  if constexpr (Signal::has_histogram) add_all(text, " ", Signal::bins, " bins");
-  if constexpr (!std::is_void<typename Signal::Rule>::value) add_all(text, " (", name_of<typename Signal::Rule>(), ")");
-  add_all(text, " ", Grid::radial, "x", Grid::elevation, "x", Grid::azimuth, " ", name_of<Scale>());
-  ScaleParameters<Scale>::add_to(text);
+  if constexpr (Part::weight_cells > 0) {
+    add_means(text, typename Part::Averaged{});
+    add_all(text, " shrunk by ", Part::shrink_percent, "/100");
+  } else {
+    using Signal = typename Part::Signal;
+    add(text, name_of<Signal>());
+    if constexpr (Signal::has_histogram) add_all(text, " ", Signal::bins, " bins");
+    add_color<Signal>(text);
+  }
+  add_all(text, " ", Grid::radial, "x", Grid::elevation, "x", Grid::azimuth, " ", name_of<typename Part::Scale>());
+  ScaleParameters<typename Part::Scale>::add_to(text);
+  FinishText<typename Part::Finish>::add_to(text);
 }
 
 template <class Voting, class... Parts>

@@ -37,12 +37,29 @@ struct Signal {
   using Measured = void;
   /// Set where measure() looks at nothing but the index, and every point has a value: fewer registers to go through.
   static constexpr bool reads_index_only = false;
+  /// How many values measure() gives for each neighbor, as Values<components>, and which of those of the signal that it
+  /// is Measured as is this one.
+  static constexpr int components = 1;
+  static constexpr int component = 0;
   /// The rule by which colors are converted; void: there are none.
   using Rule = void;
+  /// What colors are compared with: KeyPointColor or MeanColor, the same for all signals of a descriptor; void:
+  /// nothing.
+  using Reference = void;
+  /// Set where measure() gives values with signs, -4 to 4. Such a signal adds value(), of which a part's means are, and
+  /// for histograms place(): both take what was measured.
+  static constexpr bool is_signed = false;
+  static constexpr bool has_signs = false;  ///< value() may be below 0
 };
 
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
+
+/// What is measured at once.
+template <int Components>
+struct Values {
+  simd::F32 of[static_cast<std::size_t>(Components)];
+};
 
 /// Where the neighbors of one register are.
 template <class FrameAxes>
@@ -63,6 +80,15 @@ struct IndicesAt {
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
 
+/// What a color signal compares neighbors' colors with: the key point's own, or the mean of all within the radius, the
+/// key point included. (One point's color is noise: the mean finds a third more.)
+struct KeyPointColor {
+  static constexpr const char* name = "key point's color";
+};
+struct MeanColor {
+  static constexpr const char* name = "mean color";
+};
+
 /// Signal of SSH: none. Every point counts as one, a cell holds a plain sum.
 struct Occupancy : extend::Signal<1> {
   static constexpr const char* name = "occupancy";  ///< for layout_of()
@@ -81,18 +107,93 @@ struct NormalCosine : extend::Signal<Bins, CloudNormals> {
   }
 };
 
-/// Signal of CSHOT and SCSH: the CIELAB distance between a point's color and the key point's, over `Bins` bins of
-/// equal width. `LabRule` is the color conversion (PublishedLab, CshotLab or PclLab).
-template <int Bins, class LabRule = PublishedLab>
+/// Signal of CSHOT and SCSH: the CIELAB distance between a point's color and the key point's (or the MeanColor), over
+/// `Bins` bins of equal width. `LabRule` is the color conversion (PublishedLab, CshotLab or PclLab).
+template <int Bins, class LabRule = PublishedLab, class ReferenceColor = KeyPointColor>
 struct ColorDistance : extend::Signal<Bins, RgbColors<LabRule>> {
   static_assert(Bins >= 1 && Bins <= 1024, "ColorDistance<Bins> supports 1 to 1024 histogram bins");
   static constexpr const char* name = "color distance";
-  using Measured = ColorDistance<1, LabRule>;
+  using Measured = ColorDistance<1, LabRule, ReferenceColor>;
   static constexpr bool reads_index_only = true;
   using Rule = LabRule;
+  using Reference = ReferenceColor;
   template <class At, class Colors>
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 measure(const At& at, const Colors& colors) noexcept {
     return extend::color_distances(extend::colors_at(colors, at.index), extend::in_all_lanes(colors.reference));
+  }
+};
+
+/// The axes of CIELAB: lightness, green to red, blue to yellow.
+enum class LabAxis : std::uint8_t { L, a, b };
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::extend {
+inline namespace SHORTSHOT_TYPES {
+
+/// How a point's color differs from the mean of the neighborhood's, along all axes of CIELAB: dL / 100, da / 60, db
+/// / 60.
+template <class LabRule = PublishedLab>
+struct LabOffset : Signal<1, RgbColors<LabRule>> {
+  static constexpr const char* name = "Lab offset";
+  static constexpr bool reads_index_only = true;
+  static constexpr int components = 3;
+  using Rule = LabRule;
+  using Reference = MeanColor;
+  template <class At, class Colors>
+  [[nodiscard]] SHORTSHOT_INLINE static Values<3> measure(const At& at, const Colors& colors) noexcept {
+    using simd::all;
+    const LabLanes own = colors_at(colors, at.index);
+    const LabLanes mean = in_all_lanes(colors.reference);
+    return {{(own.L - mean.L) * all(1.0f / 100.0f), (own.a - mean.a) * all(1.0f / 60.0f),
+             (own.b - mean.b) * all(1.0f / 60.0f)}};
+  }
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::extend
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// How a point's color differs from the mean of the neighborhood's along one axis of CIELAB, with its sign: dL / 100,
+/// da / 60 or db / 60. As a histogram over `Bins` bins: dL from -40 to 40, da and db from -30 to 30; what lies beyond
+/// is in the outermost bins.
+template <LabAxis Axis, int Bins = 1, class LabRule = PublishedLab>
+struct ColorOffset : extend::Signal<Bins, RgbColors<LabRule>> {
+  static_assert(Bins >= 1 && Bins <= 1024, "ColorOffset<Axis, Bins> supports 1 to 1024 histogram bins");
+  static constexpr const char* name = Axis == LabAxis::L   ? "lightness offset"
+                                      : Axis == LabAxis::a ? "a offset"
+                                                           : "b offset";
+  using Measured = extend::LabOffset<LabRule>;
+  static constexpr bool reads_index_only = true;
+  static constexpr int component = static_cast<int>(Axis);
+  using Rule = LabRule;
+  using Reference = MeanColor;
+  static constexpr bool is_signed = true;
+  static constexpr bool has_signs = true;
+  template <class At, class Colors>
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 measure(const At& at, const Colors& colors) noexcept {
+    return Measured::measure(at, colors).of[component];
+  }
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 value(extend::simd::F32 offset) noexcept { return offset; }
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 place(extend::simd::F32 offset) noexcept {
+    return offset * extend::simd::all(Axis == LabAxis::L ? 1.25f : 1.0f) + extend::simd::all(0.5f);
+  }
+};
+
+/// How far it lies above the mean (`Sign` 1) or below it (-1); 0 on the other side. For means alone.
+template <LabAxis Axis, int Sign, class LabRule = PublishedLab>
+struct ColorExcess : ColorOffset<Axis, 1, LabRule> {
+  static_assert(Sign == 1 || Sign == -1, "ColorExcess<Axis, Sign> supports 1 (above the mean) and -1 (below)");
+  static constexpr bool has_signs = false;
+  static constexpr const char* name = Axis == LabAxis::L   ? (Sign > 0 ? "lightness above" : "lightness below")
+                                      : Axis == LabAxis::a ? (Sign > 0 ? "a above" : "a below")
+                                                           : (Sign > 0 ? "b above" : "b below");
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 value(extend::simd::F32 offset) noexcept {
+    const extend::simd::F32 zero = extend::simd::all(0.0f);
+    return extend::simd::max(Sign > 0 ? offset : zero - offset, zero);
   }
 };
 
@@ -122,10 +223,10 @@ struct Intensity : extend::Signal<Bins, CloudIntensities> {
 namespace shortshot::detail {
 inline namespace SHORTSHOT_TYPES {
 
-/// The distinct ones of some signals with histograms: those that are measured, once each.
+/// The distinct ones of some signals with histograms: those that are measured, once each. `size`: their values.
 template <class... Signals>
 struct SignalList {
-  static constexpr int size = sizeof...(Signals);
+  static constexpr int size = (Signals::components + ... + 0);
 };
 
 template <class Signal>
@@ -142,12 +243,22 @@ struct Distinct<SignalList<Have...>, Next, More...>
                                   SignalList<Have...>, SignalList<Have..., MeasuredAs<Next>>>,
                More...> {};
 
-/// The place of a signal in the list of them.
+/// The distinct ones of several lists.
+template <class List, class... Lists>
+struct DistinctOf {
+  using type = List;
+};
+template <class List, class... Signals, class... Others>
+struct DistinctOf<List, SignalList<Signals...>, Others...>
+    : DistinctOf<typename Distinct<List, Signals...>::type, Others...> {};
+
+/// The place of a signal's value among those of a list.
 template <class Signal, class... Signals>
 [[gnu::always_inline]] constexpr int place_in(SignalList<Signals...>) noexcept {
   constexpr bool same[] = {std::is_same<MeasuredAs<Signal>, Signals>::value...};
-  int place = 0;
-  while (!same[place]) ++place;
+  constexpr int components[] = {Signals::components...};
+  int place = Signal::component;
+  for (int k = 0; !same[k]; ++k) place += components[k];
   return place;
 }
 

@@ -173,9 +173,13 @@ constexpr int signal_row() noexcept {
   }
 }
 
+/// The signal of a part if it is a signed one.
+template <class Part>
+using SignedOf = std::conditional_t<Part::Signal::is_signed, typename Part::Signal, void>;
+
 /// The same of one part where code shall be small: this function for all parts with these rules. `signal` is the row of
 /// the part's signal, or 0 if it has no histogram.
-template <class Voting, class Cells, class Scale, class Chunk>
+template <class Voting, class Cells, class Scale, class Signed, class Chunk>
 [[gnu::noinline]] inline void add_points_of_part(const Chunk& chunk, const Axis (&axes)[4], int signal,
                                                  const VoteUnit& unit, float* values) noexcept {
   for (std::uint32_t i = 0; i < chunk.size; ++i) {
@@ -183,7 +187,10 @@ template <class Voting, class Cells, class Scale, class Chunk>
     // Without a histogram all of a fourth axis' share is its partner's, which does not exist.
     shares[3] = {simd::all_int(0), simd::all_int(0), simd::all_int(2 * unit.one)};
     for (int k = 0; k < (signal == 0 ? 3 : 4); ++k) {
-      const simd::F32 coordinate = simd::load(chunk.row(k == 3 ? signal : k, i));
+      simd::F32 coordinate = simd::load(chunk.row(k == 3 ? signal : k, i));
+      if constexpr (!std::is_void<Signed>::value) {
+        if (k == 3) coordinate = cut_off(Signed::place(coordinate));
+      }
       shares[k] = share_along_axis<Voting, Cells, Scale>(axes[k], k, coordinate, unit);
     }
     const auto votes = Voting::template combine<4>(axes, shares, unit);
@@ -196,7 +203,7 @@ inline void accumulate_all(Descriptor<Voting, Parts...> descriptor, std::index_s
                            const VoteUnit& unit, float* out) noexcept {
   using D = Descriptor<Voting, Parts...>;
   if constexpr (simd::lanes == 1 && small_code) {
-    (add_points_of_part<Voting, typename Parts::Cells, typename Parts::Scale>(
+    (add_points_of_part<Voting, typename Parts::Cells, typename Parts::Scale, SignedOf<Parts>>(
          chunk, Parts::template axes<Parts::values>, signal_row<Parts, Chunk>(), unit, out + D::offset(I)),
      ...);
   } else if constexpr (simd::lanes == 1) {
@@ -216,7 +223,7 @@ inline void accumulate_all(Descriptor<Voting, Parts...> descriptor, std::index_s
 template <std::uint32_t ChunkSize, class Voting, class... Parts>
 constexpr std::size_t scratch_bytes(Descriptor<Voting, Parts...>) noexcept {
   using D = Descriptor<Voting, Parts...>;
-  constexpr std::size_t votes[] = {sizeof(ChunkVotes<Voting, Parts, 0, ChunkSize>)...};
+  constexpr std::size_t votes[] = {(Parts::weight_cells > 0 ? 0 : sizeof(ChunkVotes<Voting, Parts, 0, ChunkSize>))...};
   std::size_t most = 0;
   for (const std::size_t bytes : votes)
     most = HaveOneGrid<Parts...>::value ? most + bytes : most < bytes ? bytes : most;

@@ -23,6 +23,9 @@
 #include "../search/radius.hpp"
 #include "../status.hpp"
 #include "accumulate.hpp"
+#include "accumulate_means.hpp"
+#include "finish.hpp"
+#include "mean_color.hpp"
 #include "to_spherical.hpp"
 
 namespace shortshot::detail {
@@ -35,36 +38,31 @@ inline namespace SHORTSHOT_CODE {
   return {bits, std::int32_t{1} << bits};
 }
 
-/// Integers to floats of L2 norm 1. Squares are added up in eight places, whatever the number of lanes: the same order,
-/// and so the same bits, from all.
-[[nodiscard]] inline Status normalize(float* values, int size) noexcept {
-  constexpr int lanes = static_cast<int>(simd::lanes);
-  const int whole = small_code && lanes == 1 ? 0 : size / 8 * 8;
-  simd::F32 squares[8 / lanes] = {};
-  for (int i = 0; i < whole; i += 8) {
-    each<8 / lanes>([&](auto k) {
-      const simd::F32 value = to_float(bits_of(simd::load(values + i + k * lanes)));
-      simd::store(values + i + k * lanes, value);
-      squares[k] = squares[k] + value * value;
-    });
+/// The sources as the signals see them.
+template <class D, class Sources, class Neighbors>
+[[nodiscard]] SHORTSHOT_INLINE decltype(auto) seen_sources(const Sources& sources, const Neighbors& n,
+                                                           Radius radius) noexcept {
+  if constexpr (D::compares_with_mean) {
+    return with_mean_color<typename D::LabRule>(sources, n, radius);
+  } else {
+    return (sources);
   }
-  float s[8];
-  each<8 / lanes>([&](auto k) { simd::store(s + k * lanes, squares[k]); });
-  for (int i = whole; i < size; ++i) {
-    std::int32_t sum = 0;
-    std::memcpy(&sum, values + i, sizeof sum);
-    values[i] = static_cast<float>(sum);
-    s[i % 8] += unfused(values[i] * values[i]);
-  }
+}
 
-  for (std::size_t count = 4; count > 0; count /= 2) {  // neighbors first
-    for (std::size_t k = 0; k < count; ++k) s[k] = s[2 * k] + s[2 * k + 1];
-  }
-  if (!(s[0] > 0.0f)) return Status::too_few_neighbors;
-  const float inverse = 1.0f / simd::sqrt(s[0]);
-  for (int i = 0; i < whole; i += lanes) simd::store(values + i, simd::load(values + i) * simd::all(inverse));
-  for (int i = whole; i < size; ++i) values[i] *= inverse;
-  return Status::ok;
+/// A chunk into parts one by one, some of them with means.
+template <class Voting, class... Parts, std::size_t... I, class Chunk>
+inline void accumulate_each(Descriptor<Voting, Parts...>, std::index_sequence<I...>, const Chunk& chunk,
+                            const VoteUnit& unit, [[maybe_unused]] float* weights, float* out) noexcept {
+  using D = Descriptor<Voting, Parts...>;
+  const auto accumulate_one = [&](auto part, float* votes, float* values) {
+    using Part = decltype(part);
+    if constexpr (Part::weight_cells > 0) {
+      accumulate_means<Voting, Part>(chunk, unit, votes, values);
+    } else {
+      accumulate_all(Descriptor<Voting, Part>{}, std::make_index_sequence<1>{}, chunk, unit, values);
+    }
+  };
+  (accumulate_one(Parts{}, weights + D::weight_offset(I), out + D::offset(I)), ...);
 }
 
 /// describe() for what was checked before; `out` is all zeros. (Not inlined: its chunk need not be on the stack while
@@ -73,17 +71,24 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
 [[nodiscard, gnu::noinline]] inline Status describe_checked(const Neighbors& n, const Sources& sources,
                                                             const Frame& frame, Radius radius, float* out) noexcept {
   using Signals = typename D::Signals;
+  constexpr auto parts = std::make_index_sequence<D::parts>{};
   if (!D::Cells::has_enough(n, radius)) return Status::too_few_neighbors;
   const VoteUnit unit = vote_unit(n.size, D::position_bits, D::Voting::weight_bits);
-  const auto of_place = signals_of_place<Signals>(sources);
+  const auto& seen = seen_sources<D>(sources, n, radius);
+  const auto of_place = signals_of_place<Signals>(seen);
+  float weights[static_cast<std::size_t>(D::weight_cells + 1)] = {};  // an array has one or more
   Chunk<Signals, ChunkSize> chunk;
   for (std::uint32_t i = 0; i * ChunkSize < n.size; ++i) {
     locate<typename D::Cells, (D::shell_borders > 1)>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
                                                       D::shell_borders, of_place, chunk);
-    measure_all_by_index(Signals{}, sources, chunk);
-    accumulate_all(D{}, std::make_index_sequence<D::parts>{}, chunk, unit, out);
+    measure_all_by_index(Signals{}, seen, chunk);
+    if constexpr (D::is_plain) {
+      accumulate_all(D{}, parts, chunk, unit, out);
+    } else {
+      accumulate_each(D{}, parts, chunk, unit, weights, out);
+    }
   }
-  return normalize(out, D::size);
+  return finish(D{}, parts, out, weights);
 }
 
 /// The first status that is not ok of those sources that D reads.

@@ -112,6 +112,19 @@ template <class D, class Place>
   return Status::ok;
 }
 
+/// A key point as D's sources see it: where colors are compared with their mean, its own may be missing.
+template <class D>
+[[nodiscard, gnu::always_inline]] inline decltype(auto) key_for(const KeyPoint& key) noexcept {
+  if constexpr (D::compares_with_mean) {
+    KeyPoint seen = key;
+    seen.color = Rgb{};
+    seen.has_color = true;
+    return seen;
+  } else {
+    return (key);
+  }
+}
+
 /// Everything up to the gathered neighborhood; finish(neighborhood, sources, position) makes the descriptor of it.
 template <class D, class Search, class Place, class Memory, class Finish, class... Own>
 [[nodiscard, gnu::always_inline]] inline Status describe_key(const CloudView& cloud, const Search& search,
@@ -124,7 +137,7 @@ template <class D, class Search, class Place, class Memory, class Finish, class.
   if (status == Status::ok) status = find_key<D>(cloud, place, key);
   if (status == Status::ok && !is_finite(key.position)) status = Status::invalid_keypoint;
   if (status != Status::ok) return status;
-  const auto sources = sources_at(typename D::Sources{}, cloud, key, own...);
+  const auto sources = sources_at(typename D::Sources{}, cloud, key_for<D>(key), own...);
   auto n = neighborhood_in(workspace, cloud);
   status = status_of(typename D::Sources{}, sources);
   if (status == Status::ok) status = search.gather(key.position, gather_radius(support), n);

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "../base/simd.hpp"
+#include "../base/unroll.hpp"
 #include "../config.hpp"
 #include "../descriptor/signals.hpp"
 #include "../descriptor/source_set.hpp"
@@ -20,11 +21,15 @@ inline namespace SHORTSHOT_CODE {
 [[nodiscard]] SHORTSHOT_INLINE simd::F32 cut_off(simd::F32 value) noexcept {
   return simd::max(simd::min(value, simd::all(1.0f)), simd::all(0.0f));
 }
+/// Signed ones: one point's must not leave the sums' integers.
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 cut_off_signed(simd::F32 value) noexcept {
+  return simd::max(simd::min(value, simd::all(4.0f)), simd::all(-4.0f));
+}
 
 /// The values of one signal, given the sources of all.
 template <class Signal, class... Kinds, class At, class Sources>
-[[nodiscard]] SHORTSHOT_INLINE simd::F32 measure(extend::SourceKinds<Kinds...>, const At& at,
-                                                 const Sources& sources) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE auto measure(extend::SourceKinds<Kinds...>, const At& at,
+                                            const Sources& sources) noexcept {
   return Signal::measure(at, source_of<Kinds>(sources)...);
 }
 
@@ -94,7 +99,13 @@ inline void measure_by_index(const Sources& all, Chunk& chunk) noexcept {
     float* const row = chunk.rows + Chunk::template row_of<Signal> * std::size_t{Chunk::room};
     for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
       const IndicesAt at{chunk.index + i};
-      simd::store(row + i, cut_off(measure<Signal>(typename Signal::Sources{}, at, sources)));
+      const auto measured = measure<Signal>(typename Signal::Sources{}, at, sources);
+      if constexpr (Signal::components == 1) {
+        simd::store(row + i, cut_off(measured));
+      } else {
+        unroll<Signal::components>(
+            [&](auto k) { simd::store(row + i + k * std::size_t{Chunk::room}, cut_off_signed(measured.of[k])); });
+      }
     }
   }
 }

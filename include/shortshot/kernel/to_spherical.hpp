@@ -73,7 +73,7 @@ template <class Cells, bool Exact, int Values, class FrameAxes, class Signals>
   Located<Values> located{};
   located.distance = Cells::template distance<Exact>(v.d2, local, radius, borders);
   const simd::F32 from_axis = simd::sqrt(local.x * local.x + local.y * local.y);
-  located.elevation = math::elevation(from_axis, local.z);
+  located.elevation = Cells::elevation(local, from_axis, radius);
   located.azimuth = Cells::azimuth(local, from_axis);
   located.described = Cells::are_described(v.d2, radius);
   if constexpr (Signals::count > 0) {

@@ -10,6 +10,7 @@
 #include "../config.hpp"
 #include "../descriptor/axis.hpp"
 #include "../descriptor/voting.hpp"
+#include "measure_signals.hpp"
 #include "to_spherical.hpp"
 
 namespace shortshot::detail {
@@ -72,7 +73,9 @@ template <class Voting, class Part, class Chunk>
                                                                       const VoteUnit& unit) noexcept {
   constexpr const Axis(&axes)[4] = Part::template axes<Part::values>;
   if constexpr (Part::has_histogram) {
-    const simd::F32 signal = simd::load(chunk.row(Chunk::template row_of<typename Part::Signal>, i));
+    using Signal = typename Part::Signal;
+    simd::F32 signal = simd::load(chunk.row(Chunk::template row_of<Signal>, i));
+    if constexpr (Signal::is_signed) signal = cut_off(Signal::place(signal));
     shares.axes[3] = share_along_axis<Voting, typename Part::Cells, typename Part::Scale>(axes[3], 3, signal, unit);
   }
   return Voting::template combine<Part::axis_count>(axes, shares.axes, unit);

@@ -114,7 +114,8 @@ inline namespace SHORTSHOT_CODE {
 /// The k nearest rows of the database for each query, nearest first; of rows at the same distance the first ones come
 /// first. Exact: as if all distances were computed.
 ///
-/// `queries`, `database`  DescriptorRows, ByteRows or BitRows (see rows_of()), or rows in a format of your own
+/// `queries`, `database`  DescriptorRows, ByteRows, NibbleRows or BitRows (see rows_of()), or rows in a format of your
+/// own
 ///            (extend::is_row_format). Distances are L2 for floats (sums of squared differences in float, in a fixed
 ///            order: l2_distance()) and for bytes, Hamming for bits
 /// `k`        from 1 on; meant to be small (an insertion costs O(k))

@@ -1,0 +1,68 @@
+// shortshot/kernel/mean_color.hpp: the mean of a neighborhood's colors, with which signals of MeanColor compare.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "../base/fixed_point.hpp"
+#include "../base/simd.hpp"
+#include "../base/unfused.hpp"
+#include "../color/color_source.hpp"
+#include "../config.hpp"
+#include "../descriptor/source_set.hpp"
+#include "../search/neighborhood.hpp"
+#include "../search/radius.hpp"
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// The mean color of all neighbors within the radius, the key point and its copies included; black if there is none.
+template <class Neighbors, class Colors>
+[[nodiscard]] inline Lab mean_color(const Neighbors& n, const Colors& colors, Radius radius) noexcept {
+  const int exponent = fixed_point_exponent(n.size, 7);  // L, a and b are below 128
+  const simd::F32 scale = simd::all(static_cast<float>(1 << exponent));
+  simd::I32 sums[3] = {simd::all_int(0), simd::all_int(0), simd::all_int(0)};
+  simd::I32 counts = simd::all_int(0);
+  for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
+    float d2[simd::lanes];
+    std::uint32_t index[simd::lanes];
+    const std::size_t whole = n.size - i < simd::lanes ? n.size - i : simd::lanes;
+    for (std::size_t k = 0; k < simd::lanes; ++k) {
+      const extend::Neighbor v = extend::neighbor_at(n, i + (k < whole ? static_cast<std::uint32_t>(k) : 0));
+      d2[k] = k < whole ? v.d2 : radius.squared;
+      index[k] = v.index;
+    }
+    const simd::Mask within = simd::load(d2) < simd::all(radius.squared);
+    const extend::LabLanes lab = extend::colors_at(colors, index);
+    sums[0] = sums[0] + keep(within, round_to_int(lab.L * scale));
+    sums[1] = sums[1] + keep(within, round_to_int(lab.a * scale));
+    sums[2] = sums[2] + keep(within, round_to_int(lab.b * scale));
+    counts = increment(within, counts);
+  }
+  const std::int32_t count = sum(counts);
+  if (count == 0) return {0.0f, 0.0f, 0.0f};
+  const float inverse = 1.0f / static_cast<float>(count) / static_cast<float>(1 << exponent);
+  const auto mean = [&](simd::I32 lanes) { return unfused(static_cast<float>(sum(lanes)) * inverse); };
+  return {mean(sums[0]), mean(sums[1]), mean(sums[2])};
+}
+
+/// Sources with the mean color of the neighborhood as the colors' reference.
+template <class LabRule, class Neighbors>
+[[nodiscard]] inline extend::SourceSet<> with_mean_color(const extend::SourceSet<>&, const Neighbors&,
+                                                         Radius) noexcept {
+  return {};
+}
+template <class LabRule, class Neighbors, class First, class... Others>
+[[nodiscard]] inline extend::SourceSet<First, Others...> with_mean_color(
+    const extend::SourceSet<First, Others...>& sources, const Neighbors& n, Radius radius) noexcept {
+  extend::SourceSet<First, Others...> result{sources.first, sources.others};
+  if constexpr (StandsFor<RgbColors<LabRule>, First>::value) {
+    result.first.reference = mean_color(n, sources.first, radius);
+  } else {
+    result.others = with_mean_color<LabRule>(sources.others, n, radius);
+  }
+  return result;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

@@ -1,0 +1,86 @@
+// The compact descriptors against an oracle of their own, in double precision.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "fixtures.hpp"
+#include "oracle_compact.hpp"
+
+namespace {
+
+using namespace unit;
+using oracle::compact::Seen;
+
+constexpr float radius = 0.05f;
+constexpr std::size_t points = 1200;
+
+using Expected = std::vector<double> (*)(const std::vector<Seen>&);
+
+std::vector<double> color_rings(const std::vector<Seen>& p, int rings, int bins) {
+  std::vector<double> all;
+  for (const std::size_t axis : {0u, 1u, 2u}) {
+    const std::vector<double> one = oracle::compact::colors(p, rings, axis, bins);
+    all.insert(all.end(), one.begin(), one.end());
+  }
+  return all;
+}
+
+/// D in a known frame, and what is expected of it there: the largest difference of a value's square (roots are steep
+/// near 0), and the distance of both.
+template <class D>
+void compare(Expected expected_of) {
+  static ss::Workspace<points> workspace;
+  double worst_square = 0.0, worst_l2 = 0.0;
+  int compared = 0;
+  for (std::uint32_t seed = 1; seed <= 4; ++seed) {
+    const TestCloud cloud = seed % 2 == 0 ? blob(seed, points) : curved_surface(seed, points);
+    const ss::BruteSearch search{cloud.view()};
+    Random random(40 + seed);
+    for (int k = 0; k < 25; ++k) {
+      const ss::Point center = cloud.at(random.below(points));
+      const oracle::Vec3f key{center.x, center.y, center.z};
+      const auto frame_members = oracle::neighbors(cloud.xyz, key, radius * radius);
+      const oracle::ShotFrame frame = oracle::shot_frame(frame_members, static_cast<double>(radius));
+      if (!frame.exists) continue;
+      const ss::Frame ours{{frame.x[0], frame.x[1], frame.x[2]},
+                           {frame.y[0], frame.y[1], frame.y[2]},
+                           {frame.z[0], frame.z[1], frame.z[2]}};
+      std::vector<float> out = garbage<D>();
+      REQUIRE(ss::describe_at<D>(cloud.view(), search, center, ours, radius, workspace, out.data()) == ss::Status::ok);
+      const std::vector<double> expected = expected_of(oracle::compact::seen(frame_members, cloud.rgb, frame, radius));
+      REQUIRE(expected.size() == out.size());
+      double squares = 0.0;
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        const auto value = static_cast<double>(out[i]);
+        squares += (value - expected[i]) * (value - expected[i]);
+        worst_square = std::max(worst_square, std::abs(value * std::abs(value) - expected[i] * std::abs(expected[i])));
+      }
+      worst_l2 = std::max(worst_l2, std::sqrt(squares));
+      ++compared;
+    }
+  }
+  CHECK(compared >= 90);
+  CHECK(worst_square <= 1e-6);
+  CHECK(worst_l2 <= 1e-4);
+}
+
+}  // namespace
+
+TEST_CASE("compact: each descriptor is the oracle's") {
+  using namespace oracle::compact;
+  compare<ss::ShapeColor95>([](const std::vector<Seen>& p) {
+    return joined({heights(p, {2, 4, 8}), means(p, {3, 1, 8}, 1.0), color_rings(p, 3, 6)});
+  });
+  compare<ss::ShapeColor32>([](const std::vector<Seen>& p) {
+    return joined({means(p, {2, 1, 4}, 0.49), color_rings(p, 2, 4), heights(p, {1, 4, 4})});
+  });
+  compare<ss::RoomColor95>([](const std::vector<Seen>& p) {
+    return joined({heights(p, {2, 4, 8}), excesses(p, {2, 1, 8}, 1.0), color_rings(p, 2, 5)});
+  });
+  compare<ss::HeightShape96>([](const std::vector<Seen>& p) { return joined({heights(p, {3, 8, 8})}); });
+  compare<ss::ColorRings27>([](const std::vector<Seen>& p) { return joined({color_rings(p, 3, 6)}); });
+}
