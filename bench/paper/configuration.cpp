@@ -13,8 +13,17 @@ std::vector<Configuration> known_configurations() {
   using namespace shortshot;
   // SHOT and CSHOT as PCL computes them: what the paper compares with.
   return {
-      configuration<PclCshot1344>("cshot1344"), configuration<PclShot352>("shot352"), configuration<Scsh336>("scsh336"),
-      configuration<Scsh696>("scsh696"),        configuration<Ssh96>("ssh96"),        configuration<Ssh32>("ssh32"),
+      configuration<PclCshot1344>("cshot1344"),
+      configuration<PclShot352>("shot352"),
+      configuration<Scsh336>("scsh336"),
+      configuration<Scsh696>("scsh696"),
+      configuration<Ssh96>("ssh96"),
+      configuration<Ssh32>("ssh32"),
+      configuration<ShapeColor95>("shapecolor95"),
+      configuration<ShapeColor32>("shapecolor32"),
+      configuration<RoomColor95>("roomcolor95"),
+      configuration<HeightShape96>("heightshape96"),
+      configuration<ColorRings27>("colorrings27"),
       // Your own: configuration<Scsh<SphericalGrid<2, 4, 8>, SphericalGrid<2, 2, 4>, 10>>("mine"),
   };
 }

@@ -32,9 +32,10 @@ struct Configuration {
   std::size_t size;  // floats
   bool needs_colors;
   bool needs_normals;
-  std::string layout;  // what its values mean
-  Describe describe;   // throws std::runtime_error with the library's message
-  KeptFrames kept;     // for describe()
+  bool wants_viewpoint;  // of the camera
+  std::string layout;    // what its values mean
+  Describe describe;     // throws std::runtime_error with the library's message
+  KeptFrames kept;       // for describe()
 
   std::size_t size_bytes() const { return size * sizeof(float); }
 };
@@ -55,13 +56,8 @@ Described describe_as(const shortshot::CloudView& cloud, const shortshot::GridSe
 
 template <class D>
 Configuration configuration(std::string name) {
-  return {std::move(name),
-          static_cast<std::size_t>(D::size),
-          D::needs_colors,
-          D::needs_normals,
-          shortshot::layout_of<D>(),
-          describe_as<D>,
-          {}};
+  return {std::move(name),    static_cast<std::size_t>(D::size), D::needs_colors, D::needs_normals,
+          D::wants_viewpoint, shortshot::layout_of<D>(),         describe_as<D>,  {}};
 }
 
 /// All that `--descriptor` knows, the paper's baseline first.

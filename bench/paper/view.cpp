@@ -67,7 +67,9 @@ View::View(RgbdCloud cloud, const ViewSettings& settings)
 
 Described View::describe(const Configuration& configuration) const {
   const shortshot::CloudView view = shortshot::with_normals(view_of_cloud(cloud_), normals_.data());
-  return configuration.describe(view, *search_, keypoints_, settings_.radius, configuration.kept);
+  shortshot::Support support(settings_.radius);
+  if (configuration.wants_viewpoint) support.viewpoint = camera_of_cloud(cloud_);
+  return configuration.describe(view, *search_, keypoints_, support, configuration.kept);
 }
 
 }  // namespace shortshot_bench::paper

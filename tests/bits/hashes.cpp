@@ -124,6 +124,11 @@ void print_all(const Input& input) {
   print_descriptors<Ssh<Shape, MultilinearVoting, LogRadius<>>>(input, search, "ssh96_multilinear_log");
   print_descriptors<Scsh<Shape, Color, 15, MultilinearVoting, LogRadius<>>>(input, search, "scsh336_multilinear_log");
   print_descriptors<IntensityShape336>(input, search, "intensity_shape336");
+  print_descriptors<ShapeColor95>(input, search, "shape_color95");
+  print_descriptors<ShapeColor32>(input, search, "shape_color32");
+  print_descriptors<RoomColor95>(input, search, "room_color95");
+  print_descriptors<HeightShape96>(input, search, "height_shape96");
+  print_descriptors<ColorRings27>(input, search, "color_rings27");
   print_descriptors<Shot352>(input, search, "shot352");
   print_descriptors<Cshot1344>(input, search, "cshot1344");
   print_descriptors<PclShot352>(input, search, "shot352_pcl");
@@ -170,6 +175,24 @@ void print_packed_matches(const Input& input, const Features<D>& view, const Fea
   hash.print(input.name, "features_file");
 }
 
+/// A compact descriptor in nibbles, and matches of such with those of another radius.
+void print_nibbles(const Input& input, const GridSearch& search, const std::vector<KeyPoint>& keypoints) {
+  using D = ShapeColor95;
+  std::vector<NibbleDescriptor<D>> nibbles[2];
+  Hash hash;
+  for (const int k : {0, 1}) {
+    Features<D> features;
+    const Status described =
+        extract(input.cloud, search, keypoints, (k == 0 ? 1.0f : 0.9f) * input.radius.value, features);
+    nibbles[k].resize(features.size());
+    for (std::size_t i = 0; i < features.size(); ++i) quantize(features[i], nibbles[k][i]);
+    hash.add(&described, 1);
+    hash.add(nibbles[k].data(), nibbles[k].size());
+  }
+  hash.print(input.name, "nibbles");
+  print_matches(input, rows_of(nibbles[0]), rows_of(nibbles[1]), "matches_nibbles");
+}
+
 /// Matches of a view's key points with those seen with another radius, the motion between them, and what it shows.
 void print_recognition(const Input& input) {
   std::vector<KeyPoint> keypoints;
@@ -186,6 +209,7 @@ void print_recognition(const Input& input) {
   hash.print(input.name, "described");
   const std::vector<MatchedPair> mutual = print_matches(input, rows_of(view), rows_of(other), "matches");
   print_packed_matches(input, view, other);
+  print_nibbles(input, search, keypoints);
 
   std::vector<PointPair> pairs;
   for (const MatchedPair& c : mutual) {

@@ -10,9 +10,12 @@ bool parse_options(int argc, const char* const* argv, DemoOptions& options, int&
       "Describe the key points of RGB-D point clouds; without a file, of a tabletop scene made up on the spot.");
   app.name("demo");
   app.add_option("clouds", options.clouds, "PCD or PLY files");
-  app.add_option("--descriptor", options.descriptor,
-                 "ssh32, ssh96, scsh336, scsh696, intensity336, shot352 or cshot1344")
-      ->check(CLI::IsMember({"ssh32", "ssh96", "scsh336", "scsh696", "intensity336", "shot352", "cshot1344"}))
+  app.add_option(
+         "--descriptor", options.descriptor,
+         "shapecolor95, shapecolor32, roomcolor95, heightshape96, colorrings27 (compact); ssh32, ssh96, scsh336, "
+         "scsh696, intensity336, shot352 or cshot1344")
+      ->check(CLI::IsMember({"shapecolor95", "shapecolor32", "roomcolor95", "heightshape96", "colorrings27", "ssh32",
+                             "ssh96", "scsh336", "scsh696", "intensity336", "shot352", "cshot1344"}))
       ->capture_default_str();
   app.add_option("--radius", options.radius, "support radius, in the clouds' unit (meters)")
       ->check(finite_and_positive)

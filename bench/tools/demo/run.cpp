@@ -57,14 +57,18 @@ std::string layout_of(const char* name) {
          std::to_string(Part::values) + " bins, the last index fastest";
 }
 
-template <class Signal>
+template <class Part>
 constexpr const char* name_of() {
-  return Signal::name;
+  if constexpr (Part::weight_cells > 0) {
+    return "mean color";
+  } else {
+    return Part::Signal::name;
+  }
 }
 
 template <class Voting, class... Parts>
 std::vector<std::string> layout_of(shortshot::Descriptor<Voting, Parts...>) {
-  return {layout_of<Parts>(name_of<typename Parts::Signal>())...};
+  return {layout_of<Parts>(name_of<Parts>())...};
 }
 
 /// What to say behind a refusal of the whole cloud.
@@ -89,7 +93,7 @@ DemoResult describe(const RgbdCloud& cloud, const DemoOptions& options) {
   }
 
   shortshot::Support support = options.radius;
-  if (options.towards_camera) support.viewpoint = camera_of_cloud(cloud);
+  if (options.towards_camera || D::wants_viewpoint) support.viewpoint = camera_of_cloud(cloud);
   shortshot::Features<D> features;
   const Stopwatch indexing;
   with_search(view, options.search, options.radius, [&](const auto& search) {
@@ -124,6 +128,11 @@ DemoResult run_demo(const RgbdCloud& cloud, const DemoOptions& options) {
   if (options.descriptor == "ssh96") return describe<shortshot::Ssh96>(cloud, options);
   if (options.descriptor == "scsh696") return describe<shortshot::Scsh696>(cloud, options);
   if (options.descriptor == "intensity336") return describe<shortshot::IntensityShape336>(cloud, options);
+  if (options.descriptor == "shapecolor95") return describe<shortshot::ShapeColor95>(cloud, options);
+  if (options.descriptor == "shapecolor32") return describe<shortshot::ShapeColor32>(cloud, options);
+  if (options.descriptor == "roomcolor95") return describe<shortshot::RoomColor95>(cloud, options);
+  if (options.descriptor == "heightshape96") return describe<shortshot::HeightShape96>(cloud, options);
+  if (options.descriptor == "colorrings27") return describe<shortshot::ColorRings27>(cloud, options);
   if (options.descriptor == "shot352") return describe<shortshot::Shot352>(cloud, options);
   if (options.descriptor == "cshot1344") return describe<shortshot::Cshot1344>(cloud, options);
   return describe<shortshot::Scsh336>(cloud, options);

@@ -110,5 +110,6 @@ TEST_CASE("matching: results come back from their JSON") {
 
 TEST_CASE("matching: descriptors that do not exist are named") {
   CHECK_THROWS_WITH(static_cast<void>(configurations_named({"scsh336", "x"})),
-                    "no descriptor \"x\"; there are cshot1344, shot352, scsh336, scsh696, ssh96, ssh32");
+                    "no descriptor \"x\"; there are cshot1344, shot352, scsh336, scsh696, ssh96, ssh32, shapecolor95, "
+                    "shapecolor32, roomcolor95, heightshape96, colorrings27");
 }

@@ -75,11 +75,30 @@ TEST_CASE("the demo describes the generated scene, and every search and thread c
   }
   options.descriptor = "scsh336";
   CHECK(check_searches(scene, options));
+  options.descriptor = "shapecolor95";
+  CHECK(check_searches(scene, options));
+  options.descriptor = "scsh336";
   options.towards_camera = true;
   CHECK(check_searches(scene, options));
   for (const char* descriptor : {"cshot1344", "intensity336"}) {
     options.descriptor = descriptor;
     CHECK(check_searches(scene, options));
+  }
+}
+
+TEST_CASE("the demo's compact descriptors look at the camera, and have two values for each byte in their names") {
+  const RgbdCloud scene = small_scene();
+  DemoOptions options;
+  for (const std::string descriptor :
+       {"shapecolor95", "shapecolor32", "roomcolor95", "heightshape96", "colorrings27"}) {
+    CAPTURE(descriptor);
+    options.descriptor = descriptor;
+    options.towards_camera = false;
+    const DemoResult result = run_demo(scene, options);
+    CHECK(result.size == 2 * std::stoul(descriptor.substr(descriptor.find_first_of("0123456789"))));
+    CHECK(result.values.size() == result.keypoints.size() * result.size);
+    options.towards_camera = true;
+    CHECK(run_demo(scene, options).values == result.values);
   }
 }
 
