@@ -290,6 +290,8 @@ StageBuild STAGES(const Workload& workload) {
   list.add_descriptor<shortshot::Shot352>("Shot352");
   list.add_descriptor<shortshot::Cshot1344>("Cshot1344");
   list.add_descriptor<shortshot::IntensityShape336>("IntensityShape336");
+  list.add_descriptor<shortshot::ShapeColor95>("ShapeColor95");
+  list.add_descriptor<shortshot::ShapeColor32>("ShapeColor32");
   list.add_binary<shortshot::Shot352>("Shot352");
   return {TEXT(STAGES_ISA), std::move(list.stages)};
 }

@@ -18,7 +18,7 @@ inline constexpr bool small_code = false;
 #endif
 
 template <class Function, int... I>
-[[gnu::always_inline]] inline void unroll(Function f, std::integer_sequence<int, I...>) noexcept {
+[[gnu::always_inline]] inline void unroll([[maybe_unused]] Function f, std::integer_sequence<int, I...>) noexcept {
   (f(std::integral_constant<int, I>{}), ...);
 }
 

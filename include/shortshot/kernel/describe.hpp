@@ -26,6 +26,7 @@
 #include "accumulate_means.hpp"
 #include "finish.hpp"
 #include "mean_color.hpp"
+#include "soft_votes.hpp"
 #include "to_spherical.hpp"
 
 namespace shortshot::detail {
@@ -78,16 +79,21 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
   const auto of_place = signals_of_place<Signals>(seen);
   float weights[static_cast<std::size_t>(D::weight_cells + 1)] = {};  // an array has one or more
   Chunk<Signals, ChunkSize> chunk;
+  [[maybe_unused]] QuadSum quads[static_cast<std::size_t>(quads_of<D>())];
+  if constexpr (is_soft<D>()) std::memset(quads, 0, sizeof quads);
   for (std::uint32_t i = 0; i * ChunkSize < n.size; ++i) {
     locate<typename D::Cells, (D::shell_borders > 1)>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
                                                       D::shell_borders, of_place, chunk);
     measure_all_by_index(Signals{}, seen, chunk);
-    if constexpr (D::is_plain) {
+    if constexpr (is_soft<D>()) {
+      add_soft_votes(D{}, parts, chunk, static_cast<float>(unit.one), quads);
+    } else if constexpr (D::is_plain) {
       accumulate_all(D{}, parts, chunk, unit, out);
     } else {
       accumulate_each(D{}, parts, chunk, unit, weights, out);
     }
   }
+  if constexpr (is_soft<D>()) gather_all_quads(D{}, parts, quads, weights, out);
   return finish(D{}, parts, out, weights);
 }
 
@@ -109,9 +115,12 @@ inline namespace SHORTSHOT_CODE {
 /// parameter of describe() and describe_at(), any multiple of simd::lanes: it changes speed and memory, no result.
 inline constexpr std::uint32_t default_chunk_size = extend::simd::lanes == 1 ? 16 : 64;
 
-/// Bytes of those arrays.
+/// Bytes of those arrays, and of the quads in which compact descriptors add up their votes.
 template <class D, std::uint32_t ChunkSize = default_chunk_size>
-inline constexpr std::size_t chunk_bytes = detail::scratch_bytes<ChunkSize>(D{});
+inline constexpr std::size_t chunk_bytes = [] {
+  if constexpr (detail::is_soft<D>()) return detail::soft_scratch_bytes<D, ChunkSize>();
+  return detail::scratch_bytes<ChunkSize>(D{});
+}();
 
 /// Describe a gathered neighborhood in a frame: the kernel of every descriptor.
 ///

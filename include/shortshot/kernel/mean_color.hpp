@@ -24,15 +24,11 @@ template <class Neighbors, class Colors>
   simd::I32 sums[3] = {simd::all_int(0), simd::all_int(0), simd::all_int(0)};
   simd::I32 counts = simd::all_int(0);
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
-    float d2[simd::lanes];
+    const extend::NeighborLanes v = extend::load_neighbors(n, i);
     std::uint32_t index[simd::lanes];
-    const std::size_t whole = n.size - i < simd::lanes ? n.size - i : simd::lanes;
-    for (std::size_t k = 0; k < simd::lanes; ++k) {
-      const extend::Neighbor v = extend::neighbor_at(n, i + (k < whole ? static_cast<std::uint32_t>(k) : 0));
-      d2[k] = k < whole ? v.d2 : radius.squared;
-      index[k] = v.index;
-    }
-    const simd::Mask within = simd::load(d2) < simd::all(radius.squared);
+    simd::store(index, v.index);
+    simd::Mask within = v.d2 < simd::all(radius.squared);
+    if (n.size - i < simd::lanes) within = within & simd::first(n.size - i);
     const extend::LabLanes lab = extend::colors_at(colors, index);
     sums[0] = sums[0] + keep(within, round_to_int(lab.L * scale));
     sums[1] = sums[1] + keep(within, round_to_int(lab.a * scale));

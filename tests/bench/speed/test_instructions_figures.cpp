@@ -104,9 +104,9 @@ TEST_CASE("the record of the project has search, frame, normals and six kernels 
   const Record record = parse_record({std::istreambuf_iterator<char>(in), {}});
   std::vector<Figure> expected;
   for (const std::string isa : {"sse2", "avx2"}) {
-    for (const std::string stage :
-         {"search grid ", "frame ", "normals ", "kernel Ssh32 ", "kernel Scsh336 ", "kernel Scsh696 ",
-          "kernel Shot352 ", "kernel Cshot1344 ", "kernel IntensityShape336 "}) {
+    for (const std::string stage : {"search grid ", "frame ", "normals ", "kernel Ssh32 ", "kernel Scsh336 ",
+                                    "kernel Scsh696 ", "kernel Shot352 ", "kernel Cshot1344 ",
+                                    "kernel IntensityShape336 ", "kernel ShapeColor95 ", "kernel ShapeColor32 "}) {
       expected.push_back({stage + isa, 1.0});
     }
   }

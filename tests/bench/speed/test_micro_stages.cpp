@@ -128,7 +128,7 @@ TEST_CASE("every build has the same stages, and they all run") {
   const std::vector<StageBuild> builds = build_stages(small_workload());
   REQUIRE(builds.size() == (cpu_has_avx2() ? 2 : 1));
   for (const StageBuild& build : builds) {
-    REQUIRE(build.stages.size() == 24);
+    REQUIRE(build.stages.size() == 28);
     for (std::size_t i = 0; i < build.stages.size(); ++i) {
       const Stage& stage = build.stages[i];
       CAPTURE(stage.name);

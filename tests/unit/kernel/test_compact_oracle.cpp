@@ -18,6 +18,16 @@ using oracle::compact::Seen;
 constexpr float radius = 0.05f;
 constexpr std::size_t points = 1200;
 
+/// Grids with one cell, or two, along some axes.
+using Odd = ss::Descriptor<ss::MultilinearVoting, ss::ColorMeansPart<ss::SphericalGrid<1, 1, 1>, 50>,
+                           ss::ColorRingsPart<1, ss::LabAxis::a, 5>, ss::HeightPart<ss::SphericalGrid<2, 1, 3>>,
+                           ss::HeightPart<ss::SphericalGrid<1, 1, 5>>, ss::HeightPart<ss::SphericalGrid<1, 2, 1>>,
+                           ss::ColorMeansPart<ss::SphericalGrid<2, 3, 4>, 25>, ss::ColorRingsPart<4, ss::LabAxis::b, 1>,
+                           ss::HeightPart<ss::SphericalGrid<3, 4, 5>>>;
+/// Too many cells for quads on the stack.
+using Large = ss::Descriptor<ss::MultilinearVoting, ss::HeightPart<ss::SphericalGrid<8, 9, 20>>,
+                             ss::ColorMeansPart<ss::SphericalGrid<1, 1, 3>, 100>>;
+
 using Expected = std::vector<double> (*)(const std::vector<Seen>&);
 
 std::vector<double> color_rings(const std::vector<Seen>& p, int rings, int bins) {
@@ -81,6 +91,11 @@ TEST_CASE("compact: each descriptor is the oracle's") {
   compare<ss::RoomColor95>([](const std::vector<Seen>& p) {
     return joined({heights(p, {2, 4, 8}), excesses(p, {2, 1, 8}, 1.0), color_rings(p, 2, 5)});
   });
+  compare<Odd>([](const std::vector<Seen>& p) {
+    return joined({means(p, {1, 1, 1}, 0.5), colors(p, 1, 1, 5), heights(p, {2, 1, 3}), heights(p, {1, 1, 5}),
+                   heights(p, {1, 2, 1}), means(p, {2, 3, 4}, 0.25), colors(p, 4, 2, 1), heights(p, {3, 4, 5})});
+  });
+  compare<Large>([](const std::vector<Seen>& p) { return joined({heights(p, {8, 9, 20}), means(p, {1, 1, 3}, 1.0)}); });
   compare<ss::HeightShape96>([](const std::vector<Seen>& p) { return joined({heights(p, {3, 8, 8})}); });
   compare<ss::ColorRings27>([](const std::vector<Seen>& p) { return joined({color_rings(p, 3, 6)}); });
 }
