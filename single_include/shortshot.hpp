@@ -4719,6 +4719,13 @@ inline namespace SHORTSHOT_CODE {
   return simd::max(simd::min(value, simd::all(4.0f)), simd::all(-4.0f));
 }
 
+/// Where in its histogram a measured value lies.
+template <class Signal>
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 place_in_histogram(simd::F32 measured) noexcept {
+  if constexpr (Signal::is_signed) return cut_off(Signal::place(measured));
+  return measured;
+}
+
 /// The values of one signal, given the sources of all.
 template <class Signal, class... Kinds, class At, class Sources>
 [[nodiscard]] SHORTSHOT_INLINE auto measure(extend::SourceKinds<Kinds...>, const At& at,
@@ -4993,8 +5000,7 @@ template <class Voting, class Part, class Chunk>
   constexpr const Axis(&axes)[4] = Part::template axes<Part::values>;
   if constexpr (Part::has_histogram) {
     using Signal = typename Part::Signal;
-    simd::F32 signal = simd::load(chunk.row(Chunk::template row_of<Signal>, i));
-    if constexpr (Signal::is_signed) signal = cut_off(Signal::place(signal));
+    const simd::F32 signal = place_in_histogram<Signal>(simd::load(chunk.row(Chunk::template row_of<Signal>, i)));
     shares.axes[3] = share_along_axis<Voting, typename Part::Cells, typename Part::Scale>(axes[3], 3, signal, unit);
   }
   return Voting::template combine<Part::axis_count>(axes, shares.axes, unit);
@@ -5174,7 +5180,7 @@ template <class Voting, class Cells, class Scale, class Signed, class Chunk>
     for (int k = 0; k < (signal == 0 ? 3 : 4); ++k) {
       simd::F32 coordinate = simd::load(chunk.row(k == 3 ? signal : k, i));
       if constexpr (!std::is_void<Signed>::value) {
-        if (k == 3) coordinate = cut_off(Signed::place(coordinate));
+        if (k == 3) coordinate = place_in_histogram<Signed>(coordinate);
       }
       shares[k] = share_along_axis<Voting, Cells, Scale>(axes[k], k, coordinate, unit);
     }
@@ -5623,12 +5629,7 @@ struct PartLanes : SoftLanes<Part> {
       values_of(typename Part::Averaged{}, chunk, i, values);
     } else if constexpr (Part::has_histogram) {
       using Signal = typename Part::Signal;
-      const simd::F32 measured = simd::load(chunk.row(Chunk::template row_of<Signal>, i));
-      if constexpr (Signal::is_signed) {
-        coordinates[3] = cut_off(Signal::place(measured));
-      } else {
-        coordinates[3] = measured;
-      }
+      coordinates[3] = place_in_histogram<Signal>(simd::load(chunk.row(Chunk::template row_of<Signal>, i)));
     }
     SoftLanes<Part>::set(coordinates, one);
   }

@@ -189,7 +189,7 @@ template <class Voting, class Cells, class Scale, class Signed, class Chunk>
     for (int k = 0; k < (signal == 0 ? 3 : 4); ++k) {
       simd::F32 coordinate = simd::load(chunk.row(k == 3 ? signal : k, i));
       if constexpr (!std::is_void<Signed>::value) {
-        if (k == 3) coordinate = cut_off(Signed::place(coordinate));
+        if (k == 3) coordinate = place_in_histogram<Signed>(coordinate);
       }
       shares[k] = share_along_axis<Voting, Cells, Scale>(axes[k], k, coordinate, unit);
     }

@@ -26,6 +26,13 @@ inline namespace SHORTSHOT_CODE {
   return simd::max(simd::min(value, simd::all(4.0f)), simd::all(-4.0f));
 }
 
+/// Where in its histogram a measured value lies.
+template <class Signal>
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 place_in_histogram(simd::F32 measured) noexcept {
+  if constexpr (Signal::is_signed) return cut_off(Signal::place(measured));
+  return measured;
+}
+
 /// The values of one signal, given the sources of all.
 template <class Signal, class... Kinds, class At, class Sources>
 [[nodiscard]] SHORTSHOT_INLINE auto measure(extend::SourceKinds<Kinds...>, const At& at,

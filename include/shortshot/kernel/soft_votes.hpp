@@ -129,12 +129,7 @@ struct PartLanes : SoftLanes<Part> {
       values_of(typename Part::Averaged{}, chunk, i, values);
     } else if constexpr (Part::has_histogram) {
       using Signal = typename Part::Signal;
-      const simd::F32 measured = simd::load(chunk.row(Chunk::template row_of<Signal>, i));
-      if constexpr (Signal::is_signed) {
-        coordinates[3] = cut_off(Signal::place(measured));
-      } else {
-        coordinates[3] = measured;
-      }
+      coordinates[3] = place_in_histogram<Signal>(simd::load(chunk.row(Chunk::template row_of<Signal>, i)));
     }
     SoftLanes<Part>::set(coordinates, one);
   }

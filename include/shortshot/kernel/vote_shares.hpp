@@ -74,8 +74,7 @@ template <class Voting, class Part, class Chunk>
   constexpr const Axis(&axes)[4] = Part::template axes<Part::values>;
   if constexpr (Part::has_histogram) {
     using Signal = typename Part::Signal;
-    simd::F32 signal = simd::load(chunk.row(Chunk::template row_of<Signal>, i));
-    if constexpr (Signal::is_signed) signal = cut_off(Signal::place(signal));
+    const simd::F32 signal = place_in_histogram<Signal>(simd::load(chunk.row(Chunk::template row_of<Signal>, i)));
     shares.axes[3] = share_along_axis<Voting, typename Part::Cells, typename Part::Scale>(axes[3], 3, signal, unit);
   }
   return Voting::template combine<Part::axis_count>(axes, shares.axes, unit);
