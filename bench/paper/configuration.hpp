@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,8 +25,9 @@ struct Described {
   }
 };
 
-using Describe = Described (*)(const shortshot::CloudView&, const shortshot::GridSearch&,
-                               const std::vector<shortshot::KeyPoint>&, const shortshot::Support&, const KeptFrames&);
+using Describe =
+    std::function<Described(const shortshot::CloudView&, const shortshot::GridSearch&,
+                            const std::vector<shortshot::KeyPoint>&, const shortshot::Support&, const KeptFrames&)>;
 
 struct Configuration {
   std::string name;

@@ -9,31 +9,6 @@
 namespace shortshot_bench::paper {
 namespace {
 
-struct Fold {
-  std::vector<std::size_t> training;
-  std::vector<std::size_t> test;
-};
-
-std::vector<Fold> folds_of(const RecognitionTask& task) {
-  Fold fixed;
-  std::set<std::string> sequences;
-  for (std::size_t i = 0; i < task.views.size(); ++i) {
-    if (task.views[i].is_training) fixed.training.push_back(i);
-    if (task.views[i].is_test) fixed.test.push_back(i);
-    sequences.insert(task.views[i].sequence);
-  }
-  if (!task.leave_one_sequence_out) return {fixed};
-  std::vector<Fold> folds;
-  for (const std::string& sequence : sequences) {
-    Fold fold;
-    for (std::size_t i = 0; i < task.views.size(); ++i) {
-      (task.views[i].sequence == sequence ? fold.test : fold.training).push_back(i);
-    }
-    folds.push_back(fold);
-  }
-  return folds;
-}
-
 ObjectLabel hough_label(const shortshot::Recognizer& recognizer, const Described& described,
                         const std::string& layout) {
   std::vector<shortshot::Hypothesis> hypotheses;
@@ -56,6 +31,26 @@ ObjectLabel nearest_label(const shortshot::Recognizer& recognizer, const Describ
 }
 
 }  // namespace
+
+std::vector<Fold> folds_of(const RecognitionTask& task) {
+  Fold fixed;
+  std::set<std::string> sequences;
+  for (std::size_t i = 0; i < task.views.size(); ++i) {
+    if (task.views[i].is_training) fixed.training.push_back(i);
+    if (task.views[i].is_test) fixed.test.push_back(i);
+    sequences.insert(task.views[i].sequence);
+  }
+  if (!task.leave_one_sequence_out) return {fixed};
+  std::vector<Fold> folds;
+  for (const std::string& sequence : sequences) {
+    Fold fold;
+    for (std::size_t i = 0; i < task.views.size(); ++i) {
+      (task.views[i].sequence == sequence ? fold.test : fold.training).push_back(i);
+    }
+    folds.push_back(fold);
+  }
+  return folds;
+}
 
 std::size_t RecognitionTask::tests() const {
   if (leave_one_sequence_out) return views.size();

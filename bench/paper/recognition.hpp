@@ -48,6 +48,15 @@ std::vector<RecognitionTask> tasks_of(const datasets::ViewSet& set);
 /// Virtual views: lower and higher ones train, those between them test.
 RecognitionTask task_of(const datasets::VirtualViewSet& set, const std::string& name);
 
+/// Views that train, and views that are recognized then, as places in the task.
+struct Fold {
+  std::vector<std::size_t> training;
+  std::vector<std::size_t> test;
+};
+
+/// One for each sequence that is left out, or a single one.
+std::vector<Fold> folds_of(const RecognitionTask& task);
+
 /// The task with every n-th of its views.
 RecognitionTask every_nth(const RecognitionTask& task, std::size_t n);
 

@@ -35,6 +35,21 @@ void thin_out(std::vector<KeyPoint>& keypoints, std::size_t count, std::uint32_t
   keypoints.resize(count);
 }
 
+std::vector<KeyPoint> keypoints_of(const shortshot::CloudView& cloud, const ViewSettings& settings) {
+  std::vector<KeyPoint> keypoints;
+  if (!settings.points_of_cloud) {
+    require(shortshot::sample_centroids(cloud, settings.leaf, keypoints));
+  } else {
+    std::vector<std::uint32_t> points;
+    require(shortshot::sample_uniform(cloud, settings.leaf, points));
+    for (const std::uint32_t i : points) keypoints.push_back(shortshot::keypoint(cloud, i));
+  }
+  if (settings.most_keypoints > 0 && keypoints.size() > settings.most_keypoints) {
+    thin_out(keypoints, settings.most_keypoints, settings.seed);
+  }
+  return keypoints;
+}
+
 shortshot::Point center_of(const shortshot::CloudView& cloud) {
   double sum[3] = {};
   double count = 0.0;
@@ -54,10 +69,7 @@ shortshot::Point center_of(const shortshot::CloudView& cloud) {
 View::View(RgbdCloud cloud, const ViewSettings& settings)
     : cloud_(settings.voxel > 0.0f ? averaged(cloud, settings.voxel) : std::move(cloud)), settings_(settings) {
   const shortshot::CloudView view = view_of_cloud(cloud_);
-  require(shortshot::sample_centroids(view, settings.leaf, keypoints_));
-  if (settings.most_keypoints > 0 && keypoints_.size() > settings.most_keypoints) {
-    thin_out(keypoints_, settings.most_keypoints, settings.seed);
-  }
+  keypoints_ = keypoints_of(view, settings_);
   const shortshot::GridSearch near(view, settings.normal_radius);
   require(shortshot::estimate_normals(view, near, settings.normal_radius, camera_of_cloud(cloud_), normals_));
   search_ = std::make_unique<shortshot::GridSearch>(view, settings.radius);

@@ -19,9 +19,10 @@ struct ViewSettings {
   float normal_radius = 0.015f;    // for SHOT and CSHOT
   std::size_t most_keypoints = 0;  // more are thinned out at random; 0: all are taken
   std::uint32_t seed = 1;          // of that
+  bool points_of_cloud = false;    // key points are the points nearest to the voxels' centers, not their centroids
 };
 
-/// Centroids of voxels as key points, normals towards the camera, and the index. Throws std::runtime_error if the cloud
+/// Key points in voxels, normals towards the camera, and the index. Throws std::runtime_error if the cloud
 /// has no point. All functions may be called from several threads.
 class View {
  public:

@@ -1,0 +1,55 @@
+#include "tradeoff/candidate.hpp"
+
+#include "tradeoff/family/family.hpp"
+
+namespace shortshot_bench::tradeoff {
+namespace {
+
+/// Published ones in the frame that published them: z by SHOT's vote.
+template <class D>
+Candidate published(std::string name, std::string board_name = {}) {
+  Candidate c = candidate<D>(std::move(name), Kind::published, std::move(board_name));
+  with_bytes<D>(c);
+  with_nibbles<D>(c);
+  return with_bits<D>(c);
+}
+
+template <class D>
+Candidate compact(std::string name, std::string board_name = {}) {
+  Candidate c = candidate<D>(std::move(name), Kind::compact, std::move(board_name));
+  return with_nibbles<D>(c);
+}
+
+/// The same in a frame whose z axis is turned to the camera.
+Candidate towards_camera(Candidate c) {
+  c.configuration.name += "-view";
+  c.configuration.wants_viewpoint = true;
+  return c;
+}
+
+}  // namespace
+
+std::vector<Candidate> candidates(bool quick) {
+  using namespace shortshot;
+  std::vector<Candidate> all = {
+      published<PclCshot1344>("cshot1344"),
+      published<PclShot352>("shot352", "Shot352"),
+      published<Scsh336>("scsh336", "Scsh336"),
+      towards_camera(published<PclShot352>("shot352", "Shot352")),
+      compact<ShapeColor95>("shapecolor95", "ShapeColor95"),
+      compact<ShapeColor32>("shapecolor32", "ShapeColor32"),
+  };
+  if (quick) return all;
+  all.push_back(towards_camera(published<PclCshot1344>("cshot1344")));
+  all.push_back(towards_camera(published<Scsh336>("scsh336", "Scsh336")));
+  all.push_back(published<Scsh696>("scsh696", "Scsh696"));
+  all.push_back(published<Ssh96>("ssh96", "Ssh96"));
+  all.push_back(published<Ssh32>("ssh32", "Ssh32"));
+  all.push_back(compact<RoomColor95>("roomcolor95"));
+  all.push_back(compact<HeightShape96>("heightshape96"));
+  all.push_back(compact<ColorRings27>("colorrings27"));
+  for (Candidate& member : family()) all.push_back(std::move(member));
+  return all;
+}
+
+}  // namespace shortshot_bench::tradeoff

@@ -1,0 +1,132 @@
+#include "tradeoff/pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/scene/random.hpp"
+#include "tradeoff/paint.hpp"
+
+namespace shortshot_bench::tradeoff {
+namespace {
+
+using paper::Described;
+using paper::View;
+
+std::array<double, 3> moved(const datasets::RigidMotion& motion, const shortshot::Point& p) {
+  std::array<double, 3> q{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    q[i] = motion[4 * i] * double{p.x} + motion[4 * i + 1] * double{p.y} + motion[4 * i + 2] * double{p.z} +
+           motion[4 * i + 3];
+  }
+  return q;
+}
+
+/// Which of the target's key points lie where those of the source truly are.
+class Truth {
+ public:
+  Truth(const datasets::RigidMotion& motion, const View& source, const View& target, float correct_distance)
+      : targets_(target.keypoints().size()) {
+    for (const shortshot::KeyPoint& s : source.keypoints()) {
+      const std::array<double, 3> q = moved(motion, s.position);
+      bool any = false;
+      for (const shortshot::KeyPoint& t : target.keypoints()) {
+        const double distance =
+            std::hypot(q[0] - static_cast<double>(t.position.x), q[1] - static_cast<double>(t.position.y),
+                       q[2] - static_cast<double>(t.position.z));
+        right_.push_back(distance <= static_cast<double>(correct_distance));
+        any = any || right_.back();
+      }
+      matchable_.push_back(any);
+    }
+  }
+  bool is_matchable(std::size_t source) const { return matchable_[source]; }
+  bool is_right(std::size_t source, std::size_t target) const { return right_[source * targets_ + target]; }
+
+ private:
+  std::size_t targets_;
+  std::vector<bool> right_;
+  std::vector<bool> matchable_;
+};
+
+/// Of the source's key points that have a counterpart, those whose nearest neighbor is one.
+campaign::Fraction count_nearest(const Described& source, const Described& target, const Truth& truth) {
+  std::vector<shortshot::Match> nearest;
+  paper::require(shortshot::nearest(source.rows().descriptors, target.rows().descriptors, 1, nearest));
+  campaign::Fraction count;
+  for (std::size_t i = 0; i < nearest.size(); ++i) {
+    if (!truth.is_matchable(i)) continue;
+    count.denominator += 1.0;
+    if (nearest[i].row != shortshot::no_row && truth.is_right(i, nearest[i].row)) count.numerator += 1.0;
+  }
+  return count;
+}
+
+campaign::Fraction count_reciprocal(const Described& source, const Described& target, const Truth& truth) {
+  std::vector<shortshot::MatchedPair> pairs;
+  paper::require(shortshot::reciprocal_correspondences(source.rows().descriptors, target.rows().descriptors, pairs));
+  campaign::Fraction count{0.0, static_cast<double>(pairs.size())};
+  for (const shortshot::MatchedPair& p : pairs) count.numerator += truth.is_right(p.source, p.target) ? 1.0 : 0.0;
+  return count;
+}
+
+/// Painted, with the lamp above and to the right of the source's camera or, moved, to the left of the target's.
+datasets::ViewPair painted_pair(datasets::ViewPair pair, const PaintLook& paint, std::uint32_t seed) {
+  const shortshot::Point lamp{0.4f, -0.5f, 0.1f};
+  const std::array<double, 3> q = moved(pair.truth, lamp);
+  const shortshot::Point at_rest{static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2])};
+  pair.source = painted(std::move(pair.source), {paint.rgb, lamp, seed});
+  pair.target = painted(std::move(pair.target),
+                        {paint.rgb, paint.lamp_moves ? shortshot::Point{-0.6f, -0.2f, 0.3f} : at_rest, seed + 1});
+  return pair;
+}
+
+/// A source, which is described once, and the targets that it is matched with.
+struct Target {
+  View view;
+  Truth truth;
+  Item item;
+};
+
+}  // namespace
+
+RgbdCloud amplified(RgbdCloud cloud, std::uint32_t seed) {
+  Random random(seed);
+  const double common = 0.15 * random.normal();
+  double gains[3];
+  for (double& gain : gains) gain = std::exp(common + 0.075 * random.normal());
+  for (std::size_t i = 0; i < cloud.rgb.size(); ++i) {
+    cloud.rgb[i] = static_cast<std::uint8_t>(std::min(255.0, std::round(gains[i % 3] * cloud.rgb[i])));
+  }
+  return cloud;
+}
+
+std::vector<Item> match_pair(datasets::ViewPair pair, const std::string& group, const PairLook& look,
+                             const std::string& measure, const std::vector<Candidate>& candidates) {
+  if (look.paint) pair = painted_pair(std::move(pair), *look.paint, look.view.seed);
+  const View source(pair.source, look.view);
+  std::vector<Target> targets;
+  const auto add = [&](const RgbdCloud& cloud, const std::string& of_measure) {
+    View view(cloud, look.view);
+    Truth truth(pair.truth, source, view, look.correct_distance);
+    targets.push_back({std::move(view), std::move(truth), {of_measure, pair.name, group, {}}});
+  };
+  add(pair.target, measure);
+  if (look.gain_seed != 0) add(amplified(pair.target, look.gain_seed), measure + gain_suffix);
+  for (const Candidate& candidate : candidates) {
+    if (candidate.configuration.needs_colors && !(source.has_colors() && pair.target.has_colors())) continue;
+    const Described of_source = source.describe(candidate.configuration);
+    for (Target& target : targets) {
+      const Described of_target = target.view.describe(candidate.configuration);
+      for (const Storage& storage : candidate.storages) {
+        const auto count = look.reciprocal ? count_reciprocal : count_nearest;
+        target.item.counts[entry_name(candidate, storage)] =
+            count(coded(of_source, storage), coded(of_target, storage), target.truth);
+      }
+    }
+  }
+  std::vector<Item> items;
+  for (Target& target : targets) items.push_back(std::move(target.item));
+  return items;
+}
+
+}  // namespace shortshot_bench::tradeoff

@@ -1,0 +1,85 @@
+// The formats in which descriptors are stored, for descriptors whose type is known at run time only.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "paper/configuration.hpp"
+#include "shortshot/shortshot.hpp"
+
+namespace shortshot_bench::tradeoff {
+
+/// Squared distances of codes are in the order of the format's own distances, and have the same ties: its whole steps,
+/// or its bits as 0 and 1. So every format can be compared by rows of floats.
+struct Storage {
+  std::string name;        // "float", "4bit", ...
+  std::size_t size_bytes;  // of a descriptor
+  std::size_t code_size;   // numbers of its code
+  void (*pack)(const float* values, unsigned char* bytes);
+  void (*unpack)(const unsigned char* bytes, float* code);
+};
+
+/// The codes of all rows.
+paper::Described coded(const paper::Described& described, const Storage& storage);
+
+namespace storage_detail {
+
+template <class D>
+void code_of(const shortshot::ByteDescriptor<D>& packed, float* code) {
+  for (std::size_t i = 0; i < sizeof packed.values; ++i) code[i] = static_cast<float>(packed.values[i]);
+}
+template <class D, int Scale>
+void code_of(const shortshot::NibbleDescriptor<D, Scale>& packed, float* code) {
+  shortshot::dequantize(packed, code);
+  for (int i = 0; i < D::size; ++i) code[i] = std::nearbyint(code[i] * static_cast<float>(Scale));
+}
+template <class D, int Group>
+void code_of(const shortshot::BinaryDescriptor<D, Group>& packed, float* code) {
+  for (int i = 0; i < D::size; ++i) code[i] = static_cast<float>(packed.bytes[i / 8] >> i % 8 & 1);
+}
+
+template <class D>
+void pack(const float* values, shortshot::ByteDescriptor<D>& packed) {
+  shortshot::quantize(values, packed);
+}
+template <class D, int Scale>
+void pack(const float* values, shortshot::NibbleDescriptor<D, Scale>& packed) {
+  shortshot::quantize(values, packed);
+}
+template <class D, int Group>
+void pack(const float* values, shortshot::BinaryDescriptor<D, Group>& packed) {
+  shortshot::binarize(values, packed);
+}
+
+}  // namespace storage_detail
+
+/// Floats as they are.
+template <class D>
+Storage float_storage() {
+  constexpr auto size = static_cast<std::size_t>(D::size);
+  const auto pack = [](const float* values, unsigned char* bytes) { std::memcpy(bytes, values, size * sizeof(float)); };
+  const auto unpack = [](const unsigned char* bytes, float* code) { std::memcpy(code, bytes, size * sizeof(float)); };
+  return {"float", size * sizeof(float), size, pack, unpack};
+}
+
+/// One of the library's packed types, which are trivial.
+template <class Packed>
+Storage packed_storage(std::string name, std::size_t code_size) {
+  const auto pack = [](const float* values, unsigned char* bytes) {
+    Packed packed;
+    storage_detail::pack(values, packed);
+    std::memcpy(bytes, &packed, sizeof packed);
+  };
+  const auto unpack = [](const unsigned char* bytes, float* code) {
+    Packed packed;
+    std::memcpy(&packed, bytes, sizeof packed);
+    storage_detail::code_of(packed, code);
+  };
+  return {std::move(name), sizeof(Packed), code_size, pack, unpack};
+}
+
+}  // namespace shortshot_bench::tradeoff
