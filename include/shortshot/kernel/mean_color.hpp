@@ -16,9 +16,27 @@
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
+/// Have all neighbors within the radius the same color? It is in `color` then. Seldom more than a look at two of them.
+template <class Neighbors, class Colors>
+[[nodiscard]] inline bool have_one_color(const Neighbors& n, const Colors& colors, Radius radius, Lab& color) noexcept {
+  Lab* next = &color;
+  Lab other;
+  for (std::uint32_t i = 0; i < n.size; ++i) {
+    const extend::Neighbor v = extend::neighbor_at(n, i);
+    if (!(v.d2 < radius.squared)) continue;
+    *next = colors(v.index);
+    if (!(next->L == color.L && next->a == color.a && next->b == color.b)) return false;
+    next = &other;
+  }
+  return next == &other;
+}
+
 /// The mean color of all neighbors within the radius, the key point and its copies included; black if there is none.
+/// Where all are alike it is theirs without rounding: nothing differs from it, and no root makes something of it.
 template <class Neighbors, class Colors>
 [[nodiscard]] inline Lab mean_color(const Neighbors& n, const Colors& colors, Radius radius) noexcept {
+  Lab same{};
+  if (have_one_color(n, colors, radius, same)) return same;
   const int exponent = fixed_point_exponent(n.size, 7);  // L, a and b are below 128
   const simd::F32 scale = simd::all(static_cast<float>(1 << exponent));
   simd::I32 sums[3] = {simd::all_int(0), simd::all_int(0), simd::all_int(0)};

@@ -66,13 +66,19 @@ TEST_CASE("compact: the whole has length 1, and each kind of part its own share 
 
 TEST_CASE("compact: where all colors are equal, means are 0 and the histograms' middle has all") {
   using D = ss::ShapeColor95;
-  const TestCloud cloud = of_one_color(curved_surface(4, 1500), {60, 60, 60});
-  const std::vector<float> values = described_at<D>(cloud.view(), cloud.at(9));
-  CHECK(part_length<D>(values, 1) < 0.002);  // the mean is as exact as integers are
-  for (std::size_t ring = 0; ring < 3; ++ring) {
-    const auto first = static_cast<std::size_t>(D::offset(2)) + 6 * ring;
-    for (const std::size_t bin : {0u, 1u, 4u, 5u}) CHECK(values[first + bin] < 0.002f);
-    CHECK(values[first + 2] == doctest::Approx(static_cast<double>(values[first + 3])).epsilon(0.01));
+  using Room = ss::RoomColor95;
+  for (const ss::Rgb color : {ss::Rgb{60, 60, 60}, ss::Rgb{201, 17, 133}, ss::Rgb{3, 250, 77}}) {
+    TestCloud cloud = of_one_color(curved_surface(4, 1500), color);
+    const std::vector<float> values = described_at<D>(cloud.view(), cloud.at(9));
+    CHECK(part_length<D>(values, 1) == 0.0);
+    CHECK(part_length<Room>(described_at<Room>(cloud.view(), cloud.at(9)), 1) == 0.0);
+    for (std::size_t ring = 0; ring < 3; ++ring) {
+      const auto first = static_cast<std::size_t>(D::offset(2)) + 6 * ring;
+      for (const std::size_t bin : {0u, 1u, 4u, 5u}) CHECK(values[first + bin] == 0.0f);
+      CHECK(values[first + 2] == doctest::Approx(static_cast<double>(values[first + 3])).epsilon(1e-3));
+    }
+    cloud.add(10.0f, 0.0f, 0.0f, {255, 255, 255});  // too far away
+    CHECK(described_at<D>(cloud.view(), cloud.at(9)) == values);
   }
 }
 
