@@ -152,4 +152,66 @@ inline std::vector<double> joined(const std::vector<std::vector<double>>& parts)
   return all;
 }
 
+/// Colors in rings, along L, a and b.
+inline std::vector<double> color_rings(const std::vector<Seen>& p, int rings, int bins) {
+  std::vector<double> all;
+  for (const std::size_t axis : {0u, 1u, 2u}) {
+    const std::vector<double> one = colors(p, rings, axis, bins);
+    all.insert(all.end(), one.begin(), one.end());
+  }
+  return all;
+}
+
+inline std::vector<double> shape_color95(const std::vector<Seen>& p) {
+  return joined({heights(p, {2, 4, 8}), means(p, {3, 1, 8}, 1.0), color_rings(p, 3, 6)});
+}
+inline std::vector<double> shape_color32(const std::vector<Seen>& p) {
+  return joined({means(p, {2, 1, 4}, 0.49), color_rings(p, 2, 4), heights(p, {1, 4, 4})});
+}
+inline std::vector<double> room_color95(const std::vector<Seen>& p) {
+  return joined({heights(p, {2, 4, 8}), excesses(p, {2, 1, 8}, 1.0), color_rings(p, 2, 5)});
+}
+inline std::vector<double> height_shape96(const std::vector<Seen>& p) { return joined({heights(p, {3, 8, 8})}); }
+inline std::vector<double> color_rings27(const std::vector<Seen>& p) { return joined({color_rings(p, 3, 6)}); }
+
+/// A named descriptor, and what it takes to store it in four bits a value: steps in 1, and which values have signs.
+struct Named {
+  const char* name;
+  std::vector<double> (*of)(const std::vector<Seen>&);
+  std::size_t size;
+  double scale;
+  std::size_t signs_begin, signs_end;
+};
+inline constexpr Named named[] = {{"shape_color95", shape_color95, 190, 50.0, 64, 136},
+                                  {"shape_color32", shape_color32, 64, 40.0, 0, 24},
+                                  {"room_color95", room_color95, 190, 50.0, 0, 0},
+                                  {"height_shape96", height_shape96, 192, 60.0, 0, 0},
+                                  {"color_rings27", color_rings27, 54, 50.0, 0, 0}};
+
+/// The nearest step, cut off at 0 and 15, or at -7 and 7 where values have signs (stored with 8 added); the first of
+/// two values in the low half of a byte.
+inline std::vector<std::uint8_t> nibbles(const Named& d, const std::vector<double>& values) {
+  std::vector<std::uint8_t> bytes((values.size() + 1) / 2, std::uint8_t{0});
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const bool has_sign = i >= d.signs_begin && i < d.signs_end;
+    const auto steps = static_cast<int>(std::round(d.scale * values[i]));
+    const int code = has_sign ? 8 + std::clamp(steps, -7, 7) : std::clamp(steps, 0, 15);
+    bytes[i / 2] = static_cast<std::uint8_t>(bytes[i / 2] | code << (i % 2 == 0 ? 0 : 4));
+  }
+  return bytes;
+}
+
+/// The frame with its z axis on the side of a viewpoint.
+inline ShotFrame turned_to(ShotFrame frame, const Vec3f& view) {
+  const double towards = static_cast<double>(frame.z[0]) * static_cast<double>(view[0]) +
+                         static_cast<double>(frame.z[1]) * static_cast<double>(view[1]) +
+                         static_cast<double>(frame.z[2]) * static_cast<double>(view[2]);
+  if (towards >= 0.0) return frame;
+  for (std::size_t k = 0; k < 3; ++k) {
+    frame.y[k] = -frame.y[k];
+    frame.z[k] = -frame.z[k];
+  }
+  return frame;
+}
+
 }  // namespace oracle::compact

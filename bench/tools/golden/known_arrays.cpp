@@ -1,11 +1,16 @@
 #include "known_arrays.hpp"
 
+#include <algorithm>
 #include <map>
+#include <type_traits>
 
 #include "shortshot/color/lab.hpp"
+#include "shortshot/descriptor/compact.hpp"
 #include "shortshot/descriptor/descriptor.hpp"
 #include "shortshot/descriptor/spherical_grid.hpp"
+#include "shortshot/descriptor/voting.hpp"
 #include "shortshot/kernel/describe.hpp"
+#include "shortshot/store/nibbles.hpp"
 
 namespace shortshot_bench::golden {
 namespace {
@@ -25,8 +30,31 @@ shortshot::Status describe_by(const shortshot::Neighborhood& n, const shortshot:
 }
 
 template <class D>
+void to_nibbles(const float* row, std::uint8_t* out) {
+  shortshot::NibbleDescriptor<D> nibbles;
+  shortshot::quantize(row, nibbles);
+  std::copy_n(nibbles.bytes, sizeof nibbles.bytes, out);
+}
+
+template <class Voting>
+constexpr bool is_continuous = std::is_same_v<Voting, shortshot::MultilinearVoting>;
+
+// Sums of votes are off by what their rounding is. Roots of them are more: the slope of a root grows without limit
+// towards 0, and a share that should be 0 but is 1e-8 has a root of 1e-4.
+template <class D>
+constexpr double row_l2_of = D::is_plain ? 1e-5 : 1e-4;
+
+template <class D>
 constexpr DescriptorOutput output_of(const char* name) {
-  return {name, D::size, D::needs_colors, D::needs_normals, describe_by<D>};
+  return {name,
+          D::size,
+          D::needs_colors,
+          D::needs_normals,
+          row_l2_of<D>,
+          !is_continuous<typename D::Voting>,
+          describe_by<D>,
+          static_cast<double>(shortshot::nibble_scale<D>),
+          to_nibbles<D>};
 }
 
 template <int R, int E, int A>
@@ -45,6 +73,11 @@ constexpr DescriptorOutput descriptors[] = {
     output_of<shortshot::Scsh<Grid<4, 4, 8>, Grid<2, 2, 8>, 30>>("scsh_128_32_30"),
     output_of<shortshot::PclShot352>("shot352"),
     output_of<shortshot::PclCshot1344>("cshot1344"),
+    output_of<shortshot::ShapeColor95>("shape_color95"),
+    output_of<shortshot::ShapeColor32>("shape_color32"),
+    output_of<shortshot::RoomColor95>("room_color95"),
+    output_of<shortshot::HeightShape96>("height_shape96"),
+    output_of<shortshot::ColorRings27>("color_rings27"),
 };
 
 }  // namespace
@@ -54,6 +87,14 @@ const DescriptorOutput* find_descriptor(const std::string& name) {
     if (name == descriptor.name) return &descriptor;
   }
   return nullptr;
+}
+
+const DescriptorOutput* find_nibbles(const std::string& name) {
+  const std::string suffix = "_nibbles";
+  if (name.size() < suffix.size() || name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0) {
+    return nullptr;
+  }
+  return find_descriptor(name.substr(0, name.size() - suffix.size()));
 }
 
 std::optional<KnownArray> find_known_array(const std::string& name) {
@@ -72,6 +113,9 @@ std::optional<KnownArray> find_known_array(const std::string& name) {
   };
   if (const DescriptorOutput* descriptor = find_descriptor(name)) {
     return KnownArray{"<f4", "keypoints", {static_cast<std::uint64_t>(descriptor->size)}, Role::reference};
+  }
+  if (const DescriptorOutput* stored = find_nibbles(name)) {
+    return KnownArray{"u1", "keypoints", {static_cast<std::uint64_t>(stored->size + 1) / 2}, Role::reference};
   }
   const auto found = others.find(name);
   if (found == others.end()) return std::nullopt;

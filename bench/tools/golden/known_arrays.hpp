@@ -35,12 +35,17 @@ struct DescriptorOutput {
   int size;
   bool needs_colors;
   bool needs_normals;
+  double row_l2;  // how far a row may be from the reference's, as an L2 distance
+  bool jumps;     // do votes move at once where a point crosses a cell's border?
   // describe() of the library; `key_color` and the cloud's colors and normals are looked at only if they are needed.
   shortshot::Status (*describe)(const shortshot::Neighborhood& n, const shortshot::CloudView& cloud,
                                 shortshot::Rgb key_color, const shortshot::Frame& frame, shortshot::Radius radius,
                                 float* out);
+  double nibble_scale;                                          // steps in 1 of NibbleDescriptor
+  void (*to_nibbles)(const float* row, std::uint8_t* nibbles);  // (size + 1) / 2 bytes
 };
 
 const DescriptorOutput* find_descriptor(const std::string& name);  // null if the name is none of a descriptor
+const DescriptorOutput* find_nibbles(const std::string& name);     // the same of "<descriptor>_nibbles"
 
 }  // namespace shortshot_bench::golden

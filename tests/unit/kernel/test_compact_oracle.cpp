@@ -30,15 +30,6 @@ using Large = ss::Descriptor<ss::MultilinearVoting, ss::HeightPart<ss::Spherical
 
 using Expected = std::vector<double> (*)(const std::vector<Seen>&);
 
-std::vector<double> color_rings(const std::vector<Seen>& p, int rings, int bins) {
-  std::vector<double> all;
-  for (const std::size_t axis : {0u, 1u, 2u}) {
-    const std::vector<double> one = oracle::compact::colors(p, rings, axis, bins);
-    all.insert(all.end(), one.begin(), one.end());
-  }
-  return all;
-}
-
 /// D in a known frame, and what is expected of it there: the largest difference of a value's square (roots are steep
 /// near 0), and the distance of both.
 template <class D>
@@ -82,20 +73,14 @@ void compare(Expected expected_of) {
 
 TEST_CASE("compact: each descriptor is the oracle's") {
   using namespace oracle::compact;
-  compare<ss::ShapeColor95>([](const std::vector<Seen>& p) {
-    return joined({heights(p, {2, 4, 8}), means(p, {3, 1, 8}, 1.0), color_rings(p, 3, 6)});
-  });
-  compare<ss::ShapeColor32>([](const std::vector<Seen>& p) {
-    return joined({means(p, {2, 1, 4}, 0.49), color_rings(p, 2, 4), heights(p, {1, 4, 4})});
-  });
-  compare<ss::RoomColor95>([](const std::vector<Seen>& p) {
-    return joined({heights(p, {2, 4, 8}), excesses(p, {2, 1, 8}, 1.0), color_rings(p, 2, 5)});
-  });
+  compare<ss::ShapeColor95>(shape_color95);
+  compare<ss::ShapeColor32>(shape_color32);
+  compare<ss::RoomColor95>(room_color95);
+  compare<ss::HeightShape96>(height_shape96);
+  compare<ss::ColorRings27>(color_rings27);
   compare<Odd>([](const std::vector<Seen>& p) {
     return joined({means(p, {1, 1, 1}, 0.5), colors(p, 1, 1, 5), heights(p, {2, 1, 3}), heights(p, {1, 1, 5}),
                    heights(p, {1, 2, 1}), means(p, {2, 3, 4}, 0.25), colors(p, 4, 2, 1), heights(p, {3, 4, 5})});
   });
   compare<Large>([](const std::vector<Seen>& p) { return joined({heights(p, {8, 9, 20}), means(p, {1, 1, 3}, 1.0)}); });
-  compare<ss::HeightShape96>([](const std::vector<Seen>& p) { return joined({heights(p, {3, 8, 8})}); });
-  compare<ss::ColorRings27>([](const std::vector<Seen>& p) { return joined({color_rings(p, 3, 6)}); });
 }
