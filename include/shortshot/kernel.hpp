@@ -4,6 +4,7 @@
 #pragma once
 
 #include "descriptor/compact.hpp"
+#include "frame/fixed_lamp_frame.hpp"
 #include "frame/normal.hpp"
 #include "kernel/describe_at.hpp"
 #include "search/brute.hpp"

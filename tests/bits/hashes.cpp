@@ -86,6 +86,21 @@ void print_frames_and_normals(const Input& input, const GridSearch& search) {
   normals.print(input.name, "keypoint_normals");
 }
 
+void print_fixed_lamp_frames(const Input& input, const GridSearch& search) {
+  if (!has_colors(input.cloud)) return;
+  Hash hash;
+  for (const std::uint32_t index : input.keypoints) {
+    Neighborhood n = neighborhood_in(workspace);
+    Frame frame{};
+    const RgbColors<PublishedLab> colors(input.cloud, Rgb{});
+    const Status statuses[] = {search.gather(point(input.cloud, index), input.radius, n),
+                               estimate_frame_under_fixed_lamp(n, colors, input.radius, frame, Viewpoint::towards({}))};
+    hash.add(statuses, 2);
+    hash.add(&frame, 1);
+  }
+  hash.print(input.name, "fixed_lamp_frames");
+}
+
 /// Of every point, seen from the origin.
 std::vector<SurfaceNormal> print_normals(const std::string& name, const CloudView& cloud, const GridSearch& search,
                                          Radius radius) {
@@ -115,6 +130,7 @@ void print_all(const Input& input) {
   if (input.keypoints.empty()) return;
   const GridSearch search(input.cloud, input.radius.value);
   print_frames_and_normals(input, search);
+  print_fixed_lamp_frames(input, search);
   print_descriptors<Ssh32>(input, search, "ssh32");
   print_descriptors<Ssh96>(input, search, "ssh96");
   print_descriptors<Scsh336>(input, search, "scsh336");

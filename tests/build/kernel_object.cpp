@@ -29,17 +29,19 @@ shortshot::Status describe(const shortshot::CloudView& cloud, const Search& sear
   return shortshot::describe_at<D>(cloud, search, index, radius, workspace, descriptor);
 }
 
-/// With colors that were converted before, in a given frame.
+/// With colors that were converted before, in a frame for things that stay under their lamp.
 shortshot::Status describe_packed(const shortshot::CloudView& cloud, std::size_t index, float radius) {
   using shortshot::Status;
   using Rule = shortshot::PublishedLab;
   const shortshot::KeyPoint key = shortshot::keypoint(cloud, index);
-  const shortshot::Frame frame{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+  shortshot::Frame frame;
   shortshot::Neighborhood n = shortshot::neighborhood_in(workspace);
   Status status = shortshot::convert_colors<Rule>(cloud, colors);
   if (status == Status::ok) status = grid.gather(key.position, radius, n);
   if (status != Status::ok) return status;
   const shortshot::PackedColors source{colors, shortshot::to_lab<Rule>(key.color)};
+  status = shortshot::estimate_frame_under_fixed_lamp(n, source, radius, frame, shortshot::Viewpoint::towards({}));
+  if (status != Status::ok) return status;
   return shortshot::describe<shortshot::Scsh336>(n, source, frame, radius, descriptor);
 }
 

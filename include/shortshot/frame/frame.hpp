@@ -219,6 +219,13 @@ inline void disambiguate_sign(const Neighbors& n, int members, int against, floa
   return {gap < 1.0f ? gap : 1.0f, margin_of(members, against.x), margin_of(members, against.z)};
 }
 
+/// y = z cross x.
+[[gnu::always_inline]] inline void set_y(Frame& frame) noexcept {
+  frame.y[0] = unfused(frame.z[1] * frame.x[2]) - unfused(frame.z[2] * frame.x[1]);
+  frame.y[1] = unfused(frame.z[2] * frame.x[0]) - unfused(frame.z[0] * frame.x[2]);
+  frame.y[2] = unfused(frame.z[0] * frame.x[1]) - unfused(frame.z[1] * frame.x[0]);
+}
+
 /// estimate_frame() for what was checked before. `view` is the vector to the viewpoint; zeros: there is none.
 /// `confidence` is one FrameConfidence, or none: nothing is worked out then, and no code of it is there.
 template <class Neighbors, class... Confidence>
@@ -245,9 +252,7 @@ template <class Neighbors, class... Confidence>
   ((confidence = confidence_of(eigen, census.members, against)), ...);
   disambiguate_sign(n, census.members, against.x, frame.x);
   disambiguate_sign(n, census.members, against.z, frame.z);
-  frame.y[0] = unfused(frame.z[1] * frame.x[2]) - unfused(frame.z[2] * frame.x[1]);
-  frame.y[1] = unfused(frame.z[2] * frame.x[0]) - unfused(frame.z[0] * frame.x[2]);
-  frame.y[2] = unfused(frame.z[0] * frame.x[1]) - unfused(frame.z[1] * frame.x[0]);
+  set_y(frame);
   return Status::ok;
 }
 
