@@ -1861,6 +1861,10 @@ struct PublishedCells {
   static constexpr const char* name = "published cells";  ///< for layout_of()
   /// Are frames meant to look at the camera, where it is known?
   static constexpr bool wants_viewpoint = false;
+  /// Does it depend on the frame in which cell a neighbor lies? Always: whether it is beyond the border of a shell is
+  /// worked out from its coordinates there.
+  template <class Grid>
+  static constexpr bool needs_frame = true;
 
   template <class Grid>
   static constexpr extend::CellStrides strides{1, Grid::radial, Grid::radial* Grid::elevation};
@@ -1918,6 +1922,8 @@ struct PublishedCells {
 struct ShotCells {
   static constexpr const char* name = "SHOT cells";
   static constexpr bool wants_viewpoint = false;
+  template <class Grid>
+  static constexpr bool needs_frame = true;
 
   template <class Grid>
   static constexpr extend::CellStrides strides{Grid::elevation, 1, Grid::radial* Grid::elevation};
@@ -1985,6 +1991,8 @@ struct ShotCells {
 struct HeightCells : PublishedCells {
   static constexpr const char* name = "height cells";
   static constexpr bool wants_viewpoint = true;  // a surface and its back are each other's mirror image in height
+  template <class Grid>
+  static constexpr bool needs_frame = Grid::elevation > 1 || Grid::azimuth > 1;
 
   [[nodiscard, gnu::always_inline]] static constexpr int exact_borders(int) noexcept { return 1; }
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::Mask are_described(extend::simd::F32 d2, Radius radius) noexcept {
@@ -3537,6 +3545,12 @@ template <class List, class... Signals, class... Others>
 struct DistinctOf<List, SignalList<Signals...>, Others...>
     : DistinctOf<typename Distinct<List, Signals...>::type, Others...> {};
 
+/// Do some of them look at where a neighbor is?
+template <class... Signals>
+[[gnu::always_inline]] constexpr bool look_at_places(SignalList<Signals...>) noexcept {
+  return (!Signals::reads_index_only || ...);
+}
+
 /// The place of a signal's value among those of a list.
 template <class Signal, class... Signals>
 [[gnu::always_inline]] constexpr int place_in(SignalList<Signals...>) noexcept {
@@ -4213,6 +4227,10 @@ struct Descriptor {
 
   /// Meant for frames that are turned to the camera: tools that know where it was tell support's viewpoint.
   static constexpr bool wants_viewpoint = Cells::wants_viewpoint;
+
+  /// Do its values depend on the frame? If not, describe_at() and extract() estimate none.
+  static constexpr bool needs_frame =
+      (Cells::template needs_frame<typename Parts::Grid> || ...) || detail::look_at_places(Signals{});
 
   /// Fewest bits behind the point of positions along its axes.
   static constexpr int position_bits = [] {
@@ -5870,6 +5888,9 @@ inline namespace SHORTSHOT_CODE {
   return {bits, std::int32_t{1} << bits};
 }
 
+/// For descriptors that are the same in all.
+inline constexpr Frame any_frame{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+
 /// The sources as the signals see them.
 template <class D, class Sources, class Neighbors>
 [[nodiscard]] SHORTSHOT_INLINE decltype(auto) seen_sources(const Sources& sources, const Neighbors& n,
@@ -5959,7 +5980,7 @@ inline constexpr std::size_t chunk_bytes = [] {
 ///            come from a search, d2 must be that of dx, dy and dz, and the indices must be ones that the sources have
 /// `sources`  what D's signals read, in any order: sources(LabColors{...}, CloudNormals(cloud)), a source alone, or
 ///            sources() if they read nothing. A neighbor for which one of them has no value is left out
-/// `frame`    an orthonormal frame: estimate_frame(), or one you know
+/// `frame`    an orthonormal frame: estimate_frame(), or one you know. Not looked at unless D::needs_frame
 /// `out`      D::size floats: the parts of D in order, L2 norm 1
 ///
 /// Source: SSH and SCSH: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code.
@@ -5979,11 +6000,12 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors
       "for NormalCosine, CloudIntensities for Intensity, and your own for your own");
   std::memset(out, 0, D::size_bytes);
   Status status = validate(radius);
-  if (status == Status::ok) status = validate(frame);
+  if (status == Status::ok && D::needs_frame) status = validate(frame);
   if constexpr (has_all) {
     if (status == Status::ok) status = detail::status_of(typename D::Sources{}, sources);
     if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
-    if (status == Status::ok) status = detail::describe_checked<D, ChunkSize>(n, sources, frame, radius, out);
+    const Frame& used = D::needs_frame ? frame : detail::any_frame;
+    if (status == Status::ok) status = detail::describe_checked<D, ChunkSize>(n, sources, used, radius, out);
   }
   return status;
 }
@@ -6055,17 +6077,27 @@ template <class D, class Search>
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
+/// How far neighbors matter: none for a frame that D does not need.
+template <class D>
+[[nodiscard]] inline Radius reach_of(const Support& support) noexcept {
+  return D::needs_frame ? gather_radius(support) : support.radius;
+}
+
 /// Frame and kernel of a neighborhood around `center`; for `confidence` see frame_of(). The arguments were validated
-/// before.
+/// before. Where D needs no frame, `frame` and `confidence` stay what they are.
 template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources, class... Confidence>
 [[nodiscard]] inline Status describe_gathered(const Neighbors& n, const Sources& sources, const Point& center,
                                               const Support& support, Frame& frame, float* out,
                                               Confidence&... confidence) noexcept {
-  float view[3];
-  Status status = direction_at(support.viewpoint, center, view);
-  if (status == Status::ok) status = frame_of(n, support.frame_radius, view, frame, confidence...);
-  if (status != Status::ok) return status;
-  return describe_checked<D, ChunkSize>(n, sources, frame, support.radius, out);
+  if constexpr (!D::needs_frame) {
+    return describe_checked<D, ChunkSize>(n, sources, any_frame, support.radius, out);
+  } else {
+    float view[3];
+    Status status = direction_at(support.viewpoint, center, view);
+    if (status == Status::ok) status = frame_of(n, support.frame_radius, view, frame, confidence...);
+    if (status != Status::ok) return status;
+    return describe_checked<D, ChunkSize>(n, sources, frame, support.radius, out);
+  }
 }
 
 template <class Kind, class = void>
@@ -6149,7 +6181,7 @@ template <class D, class Search, class Place, class Memory, class Finish, class.
   const auto sources = sources_at(typename D::Sources{}, cloud, key_for<D>(key), own...);
   auto n = neighborhood_in(workspace, cloud);
   status = status_of(typename D::Sources{}, sources);
-  if (status == Status::ok) status = search.gather(key.position, gather_radius(support), n);
+  if (status == Status::ok) status = search.gather(key.position, reach_of<D>(support), n);
   return status == Status::ok ? finish(n, sources, key.position) : status;
 }
 
@@ -6172,8 +6204,9 @@ inline namespace SHORTSHOT_CODE {
 /// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint,
 /// missing_colors, missing_normals, missing_intensities (of the cloud or the key point), bad_keypoint (the index),
 /// invalid_keypoint, too_many_neighbors (the workspace is too small: Neighborhood::found of a gather() says what it
-/// takes), too_few_neighbors, ambiguous_frame; and what the search's build() returned, if not ok. No allocation;
-/// reentrant, one workspace per thread.
+/// takes), too_few_neighbors, ambiguous_frame; and what the search's build() returned, if not ok. If D needs no frame
+/// (D::needs_frame), none is estimated: no ambiguous_frame, and one neighbor is enough. No allocation; reentrant, one
+/// workspace per thread.
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place = KeyPoint, class Memory,
           class... Own>
 [[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search,
@@ -8626,14 +8659,18 @@ inline namespace SHORTSHOT_TYPES {
 
 /// What extract() and describe_cloud() give: one row per key point, in their order. Rows only: copying it copies no
 /// scratch memory. Keep it from frame to frame and its memory is used again.
+///
+/// A descriptor that needs no frame has none here either: train() and recognize(), which cast votes from frames, say
+/// bad_frame. Give extract() frames of your own then, and it keeps them.
 template <class D>
 struct Features {
   std::vector<float> values;        ///< size() * D::size, row by row; zeros where the status is not ok
   std::vector<Status> status;       ///< one per key point
   std::vector<KeyPoint> keypoints;  ///< what was described; zeros for an index outside of the cloud
-  std::vector<Frame> frames;        ///< the local reference frame of each; zeros where the status is not ok
+  std::vector<Frame> frames;        ///< of each; zeros where the status is not ok, or if D::needs_frame is false
   std::vector<FrameConfidence> frame_confidence;  ///< how sure each of them is; zeros: not ok, or the caller's frame
   std::vector<std::uint32_t> neighbors;           ///< found within the larger radius, the key point itself included
+                                                  ///< (the frame's counts if there is one)
 
   [[nodiscard, gnu::always_inline]] std::size_t size() const noexcept { return status.size(); }
   [[nodiscard, gnu::always_inline]] const float* operator[](std::size_t row) const noexcept {
@@ -8794,7 +8831,7 @@ class Extractor {
     Status status = detail::status_of(Kinds{}, sources);
     if (status != Status::ok) return status;
     Neighborhood n;
-    status = workspace.gather(search, key.position, detail::gather_radius(support), n);
+    status = workspace.gather(search, key.position, detail::reach_of<D>(support), n);
     out.neighbors[row] = n.found;
     if (status != Status::ok) return status;
     if (n.size > max_neighbors) return Status::too_many_neighbors;
@@ -8902,10 +8939,10 @@ namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
 /// Leave out all but the best share of the rows whose status is ok: those whose frames have most confidence(), of
-/// equals the first. The others become unsure_frame, and zeros: rows keep their places and their key points, and
-/// matching, training and recognition pass over them. It saves their time, and on frames of a room the rows that stay
-/// are right more often; elsewhere what it brings is little or nothing: bench/paper/README.md, "Frame confidence".
-/// Thin out both clouds of a pair alike, or one of them alone.
+/// equals the first (all are, if the frames are the caller's or there are none). The others become unsure_frame, and
+/// zeros: rows keep their places and their key points, and matching, training and recognition pass over them. It saves
+/// their time, and on frames of a room the rows that stay are right more often; elsewhere what it brings is little or
+/// nothing: bench/paper/README.md, "Frame confidence". Thin out both clouds of a pair alike, or one of them alone.
 ///
 /// `share`  above 0, at most 1 (bad_option; nothing is changed); the number is rounded to the nearest, and one row
 ///          stays at least. Called twice with 1/2 it leaves a quarter

@@ -50,7 +50,17 @@ Described describe_as(const shortshot::CloudView& cloud, const shortshot::GridSe
                       const std::vector<shortshot::KeyPoint>& keypoints, const shortshot::Support& support,
                       const KeptFrames& kept) {
   shortshot::Features<D> features;
-  require(shortshot::extract(cloud, search, keypoints, support, features));
+  if constexpr (D::needs_frame) {
+    require(shortshot::extract(cloud, search, keypoints, support, features));
+  } else {  // recognition casts votes from frames all the same
+    shortshot::Features<shortshot::Ssh32> framed;
+    require(shortshot::extract(cloud, search, keypoints, support, framed));
+    require(shortshot::extract(cloud, search, keypoints, framed.frames, support.radius, features));
+    for (std::size_t row = 0; row < framed.size(); ++row) {
+      if (framed.status[row] != shortshot::Status::ok) features.status[row] = framed.status[row];
+    }
+    features.frame_confidence = std::move(framed.frame_confidence);
+  }
   require(keep_frames(features, keypoints, kept));
   return {std::move(features.values), std::move(features.status), std::move(features.frames), keypoints,
           static_cast<std::size_t>(D::size)};

@@ -143,7 +143,7 @@ class Extractor {
     Status status = detail::status_of(Kinds{}, sources);
     if (status != Status::ok) return status;
     Neighborhood n;
-    status = workspace.gather(search, key.position, detail::gather_radius(support), n);
+    status = workspace.gather(search, key.position, detail::reach_of<D>(support), n);
     out.neighbors[row] = n.found;
     if (status != Status::ok) return status;
     if (n.size > max_neighbors) return Status::too_many_neighbors;

@@ -16,14 +16,18 @@ inline namespace SHORTSHOT_TYPES {
 
 /// What extract() and describe_cloud() give: one row per key point, in their order. Rows only: copying it copies no
 /// scratch memory. Keep it from frame to frame and its memory is used again.
+///
+/// A descriptor that needs no frame has none here either: train() and recognize(), which cast votes from frames, say
+/// bad_frame. Give extract() frames of your own then, and it keeps them.
 template <class D>
 struct Features {
   std::vector<float> values;        ///< size() * D::size, row by row; zeros where the status is not ok
   std::vector<Status> status;       ///< one per key point
   std::vector<KeyPoint> keypoints;  ///< what was described; zeros for an index outside of the cloud
-  std::vector<Frame> frames;        ///< the local reference frame of each; zeros where the status is not ok
+  std::vector<Frame> frames;        ///< of each; zeros where the status is not ok, or if D::needs_frame is false
   std::vector<FrameConfidence> frame_confidence;  ///< how sure each of them is; zeros: not ok, or the caller's frame
   std::vector<std::uint32_t> neighbors;           ///< found within the larger radius, the key point itself included
+                                                  ///< (the frame's counts if there is one)
 
   [[nodiscard, gnu::always_inline]] std::size_t size() const noexcept { return status.size(); }
   [[nodiscard, gnu::always_inline]] const float* operator[](std::size_t row) const noexcept {

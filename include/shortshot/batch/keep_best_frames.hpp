@@ -15,10 +15,10 @@ namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
 /// Leave out all but the best share of the rows whose status is ok: those whose frames have most confidence(), of
-/// equals the first. The others become unsure_frame, and zeros: rows keep their places and their key points, and
-/// matching, training and recognition pass over them. It saves their time, and on frames of a room the rows that stay
-/// are right more often; elsewhere what it brings is little or nothing: bench/paper/README.md, "Frame confidence".
-/// Thin out both clouds of a pair alike, or one of them alone.
+/// equals the first (all are, if the frames are the caller's or there are none). The others become unsure_frame, and
+/// zeros: rows keep their places and their key points, and matching, training and recognition pass over them. It saves
+/// their time, and on frames of a room the rows that stay are right more often; elsewhere what it brings is little or
+/// nothing: bench/paper/README.md, "Frame confidence". Thin out both clouds of a pair alike, or one of them alone.
 ///
 /// `share`  above 0, at most 1 (bad_option; nothing is changed); the number is rounded to the nearest, and one row
 ///          stays at least. Called twice with 1/2 it leaves a quarter

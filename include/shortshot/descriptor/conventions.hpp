@@ -37,6 +37,10 @@ struct PublishedCells {
   static constexpr const char* name = "published cells";  ///< for layout_of()
   /// Are frames meant to look at the camera, where it is known?
   static constexpr bool wants_viewpoint = false;
+  /// Does it depend on the frame in which cell a neighbor lies? Always: whether it is beyond the border of a shell is
+  /// worked out from its coordinates there.
+  template <class Grid>
+  static constexpr bool needs_frame = true;
 
   template <class Grid>
   static constexpr extend::CellStrides strides{1, Grid::radial, Grid::radial* Grid::elevation};
@@ -94,6 +98,8 @@ struct PublishedCells {
 struct ShotCells {
   static constexpr const char* name = "SHOT cells";
   static constexpr bool wants_viewpoint = false;
+  template <class Grid>
+  static constexpr bool needs_frame = true;
 
   template <class Grid>
   static constexpr extend::CellStrides strides{Grid::elevation, 1, Grid::radial* Grid::elevation};
@@ -161,6 +167,8 @@ struct ShotCells {
 struct HeightCells : PublishedCells {
   static constexpr const char* name = "height cells";
   static constexpr bool wants_viewpoint = true;  // a surface and its back are each other's mirror image in height
+  template <class Grid>
+  static constexpr bool needs_frame = Grid::elevation > 1 || Grid::azimuth > 1;
 
   [[nodiscard, gnu::always_inline]] static constexpr int exact_borders(int) noexcept { return 1; }
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::Mask are_described(extend::simd::F32 d2, Radius radius) noexcept {

@@ -207,6 +207,10 @@ struct Descriptor {
   /// Meant for frames that are turned to the camera: tools that know where it was tell support's viewpoint.
   static constexpr bool wants_viewpoint = Cells::wants_viewpoint;
 
+  /// Do its values depend on the frame? If not, describe_at() and extract() estimate none.
+  static constexpr bool needs_frame =
+      (Cells::template needs_frame<typename Parts::Grid> || ...) || detail::look_at_places(Signals{});
+
   /// Fewest bits behind the point of positions along its axes.
   static constexpr int position_bits = [] {
     int bits = 30;

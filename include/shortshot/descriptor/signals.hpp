@@ -252,6 +252,12 @@ template <class List, class... Signals, class... Others>
 struct DistinctOf<List, SignalList<Signals...>, Others...>
     : DistinctOf<typename Distinct<List, Signals...>::type, Others...> {};
 
+/// Do some of them look at where a neighbor is?
+template <class... Signals>
+[[gnu::always_inline]] constexpr bool look_at_places(SignalList<Signals...>) noexcept {
+  return (!Signals::reads_index_only || ...);
+}
+
 /// The place of a signal's value among those of a list.
 template <class Signal, class... Signals>
 [[gnu::always_inline]] constexpr int place_in(SignalList<Signals...>) noexcept {

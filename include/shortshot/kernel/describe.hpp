@@ -39,6 +39,9 @@ inline namespace SHORTSHOT_CODE {
   return {bits, std::int32_t{1} << bits};
 }
 
+/// For descriptors that are the same in all.
+inline constexpr Frame any_frame{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
+
 /// The sources as the signals see them.
 template <class D, class Sources, class Neighbors>
 [[nodiscard]] SHORTSHOT_INLINE decltype(auto) seen_sources(const Sources& sources, const Neighbors& n,
@@ -128,7 +131,7 @@ inline constexpr std::size_t chunk_bytes = [] {
 ///            come from a search, d2 must be that of dx, dy and dz, and the indices must be ones that the sources have
 /// `sources`  what D's signals read, in any order: sources(LabColors{...}, CloudNormals(cloud)), a source alone, or
 ///            sources() if they read nothing. A neighbor for which one of them has no value is left out
-/// `frame`    an orthonormal frame: estimate_frame(), or one you know
+/// `frame`    an orthonormal frame: estimate_frame(), or one you know. Not looked at unless D::needs_frame
 /// `out`      D::size floats: the parts of D in order, L2 norm 1
 ///
 /// Source: SSH and SCSH: paper, equations (4), (6) and (7), with cells, shares and roundings as in the published code.
@@ -148,11 +151,12 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors
       "for NormalCosine, CloudIntensities for Intensity, and your own for your own");
   std::memset(out, 0, D::size_bytes);
   Status status = validate(radius);
-  if (status == Status::ok) status = validate(frame);
+  if (status == Status::ok && D::needs_frame) status = validate(frame);
   if constexpr (has_all) {
     if (status == Status::ok) status = detail::status_of(typename D::Sources{}, sources);
     if (status == Status::ok && n.size > max_neighbors) status = Status::too_many_neighbors;
-    if (status == Status::ok) status = detail::describe_checked<D, ChunkSize>(n, sources, frame, radius, out);
+    const Frame& used = D::needs_frame ? frame : detail::any_frame;
+    if (status == Status::ok) status = detail::describe_checked<D, ChunkSize>(n, sources, used, radius, out);
   }
   return status;
 }

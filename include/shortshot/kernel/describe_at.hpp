@@ -46,17 +46,27 @@ template <class D, class Search>
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
+/// How far neighbors matter: none for a frame that D does not need.
+template <class D>
+[[nodiscard]] inline Radius reach_of(const Support& support) noexcept {
+  return D::needs_frame ? gather_radius(support) : support.radius;
+}
+
 /// Frame and kernel of a neighborhood around `center`; for `confidence` see frame_of(). The arguments were validated
-/// before.
+/// before. Where D needs no frame, `frame` and `confidence` stay what they are.
 template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources, class... Confidence>
 [[nodiscard]] inline Status describe_gathered(const Neighbors& n, const Sources& sources, const Point& center,
                                               const Support& support, Frame& frame, float* out,
                                               Confidence&... confidence) noexcept {
-  float view[3];
-  Status status = direction_at(support.viewpoint, center, view);
-  if (status == Status::ok) status = frame_of(n, support.frame_radius, view, frame, confidence...);
-  if (status != Status::ok) return status;
-  return describe_checked<D, ChunkSize>(n, sources, frame, support.radius, out);
+  if constexpr (!D::needs_frame) {
+    return describe_checked<D, ChunkSize>(n, sources, any_frame, support.radius, out);
+  } else {
+    float view[3];
+    Status status = direction_at(support.viewpoint, center, view);
+    if (status == Status::ok) status = frame_of(n, support.frame_radius, view, frame, confidence...);
+    if (status != Status::ok) return status;
+    return describe_checked<D, ChunkSize>(n, sources, frame, support.radius, out);
+  }
 }
 
 template <class Kind, class = void>
@@ -140,7 +150,7 @@ template <class D, class Search, class Place, class Memory, class Finish, class.
   const auto sources = sources_at(typename D::Sources{}, cloud, key_for<D>(key), own...);
   auto n = neighborhood_in(workspace, cloud);
   status = status_of(typename D::Sources{}, sources);
-  if (status == Status::ok) status = search.gather(key.position, gather_radius(support), n);
+  if (status == Status::ok) status = search.gather(key.position, reach_of<D>(support), n);
   return status == Status::ok ? finish(n, sources, key.position) : status;
 }
 
@@ -163,8 +173,9 @@ inline namespace SHORTSHOT_CODE {
 /// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint,
 /// missing_colors, missing_normals, missing_intensities (of the cloud or the key point), bad_keypoint (the index),
 /// invalid_keypoint, too_many_neighbors (the workspace is too small: Neighborhood::found of a gather() says what it
-/// takes), too_few_neighbors, ambiguous_frame; and what the search's build() returned, if not ok. No allocation;
-/// reentrant, one workspace per thread.
+/// takes), too_few_neighbors, ambiguous_frame; and what the search's build() returned, if not ok. If D needs no frame
+/// (D::needs_frame), none is estimated: no ambiguous_frame, and one neighbor is enough. No allocation; reentrant, one
+/// workspace per thread.
 template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, class Place = KeyPoint, class Memory,
           class... Own>
 [[nodiscard, gnu::always_inline]] inline Status describe_at(const CloudView& cloud, const Search& search,
