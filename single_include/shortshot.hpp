@@ -3964,23 +3964,29 @@ struct RootOfShares {
 };
 
 /// Square roots of signed values, their signs kept, over the root of (floor + sum of magnitudes): where there is little
-/// to see, the part shrinks instead of blowing up noise. It is never longer than its weight, `PerMille` / 1000; the
-/// floor is `FloorPercent` / 100.
-template <int PerMille, int FloorPercent>
+/// to see, the part shrinks. A root is infinitely steep at 0, where it makes much of noise; so it is taken of more than
+/// the value and begins at 0 all the same: sqrt(|v| + noise) - sqrt(noise). The part is never longer than its weight,
+/// `PerMille` / 1000; the floor is `FloorPercent` / 100, the noise `NoisePerMille` / 1000.
+template <int PerMille, int FloorPercent, int NoisePerMille = 0>
 struct SignedRoots {
   static_assert(PerMille >= 1 && PerMille <= 100000,
-                "SignedRoots<PerMille, Floor> supports weights from 1 / 1000 to 100");
-  static_assert(FloorPercent >= 1, "SignedRoots<PerMille, Floor> supports floors of 1 percent or more");
+                "SignedRoots<PerMille, Floor, Noise> supports weights from 1 / 1000 to 100");
+  static_assert(FloorPercent >= 1, "SignedRoots<PerMille, Floor, Noise> supports floors of 1 percent or more");
+  static_assert(NoisePerMille >= 0 && NoisePerMille <= 1000,
+                "SignedRoots<PerMille, Floor, Noise> supports noise from 0 to 1");
   static constexpr const char* name = "signed roots";
   static constexpr int per_mille = PerMille;
   static constexpr int floor_percent = FloorPercent;
+  static constexpr int noise_per_mille = NoisePerMille;
 
   static void apply(float* values, int size) noexcept {
+    constexpr float noise = static_cast<float>(NoisePerMille) / 1000.0f;
     float sum = static_cast<float>(FloorPercent) / 100.0f;
     for (int i = 0; i < size; ++i) sum += detail::magnitude(values[i]);
     const float weight = static_cast<float>(PerMille) / 1000.0f / detail::root(sum);
+    const float start = detail::root(noise);
     for (int i = 0; i < size; ++i) {
-      const float long_one = weight * detail::root(detail::magnitude(values[i]));
+      const float long_one = weight * (detail::root(detail::magnitude(values[i]) + noise) - start);
       values[i] = values[i] < 0.0f ? -long_one : long_one;
     }
   }
@@ -4344,19 +4350,20 @@ inline namespace SHORTSHOT_TYPES {
 template <class Grid>
 using HeightPart = Part<Grid, Occupancy, LinearRadius, HeightCells, RootOfShares<1000>>;
 
-/// Where colors are: how each cell's mean color differs from the neighborhood's. Length 0.6 at most, less where there
-/// is little contrast. 3 R E A values, k = 0, 1, 2 for q = dL / 100, da / 60, db / 60:
+/// Where colors are: how each cell's mean color differs from the neighborhood's. Length 0.7 at most, less where there
+/// is little contrast, and a hundredth of q's range is taken for noise. 3 R E A values, k = 0, 1, 2 for q = dL / 100,
+/// da / 60, db / 60:
 ///
 ///     m[c][k] = (sum w q[k]) / (sum w + 0.3 W / (R E A))      c = r + R (e + E a)
-///     value[k + 3 c] = 0.6 sign(m) sqrt(|m| / (FloorPercent / 100 + sum of all |m|))
+///     value[k + 3 c] = 0.7 sign(m) (sqrt(|m| + 0.01) - 0.1) / sqrt(FloorPercent / 100 + sum of all |m|)
 template <class Grid, int FloorPercent>
-using ColorMeansPart = CellMeans<Grid, HeightCells, SignedRoots<600, FloorPercent>, 30, ColorOffset<LabAxis::L>,
+using ColorMeansPart = CellMeans<Grid, HeightCells, SignedRoots<700, FloorPercent, 10>, 30, ColorOffset<LabAxis::L>,
                                  ColorOffset<LabAxis::a>, ColorOffset<LabAxis::b>>;
 
 /// The same for rooms, where near things hide far ones: what is above the mean and what is below, apart. 6 R E A
 /// values, value[k + 6 c], k = 0 to 5 for q = max(0, dL) / 100, max(0, -dL) / 100, max(0, da) / 60 and so on.
 template <class Grid, int FloorPercent>
-using ColorExcessPart = CellMeans<Grid, HeightCells, SignedRoots<600, FloorPercent>, 30, ColorExcess<LabAxis::L, 1>,
+using ColorExcessPart = CellMeans<Grid, HeightCells, SignedRoots<700, FloorPercent, 10>, 30, ColorExcess<LabAxis::L, 1>,
                                   ColorExcess<LabAxis::L, -1>, ColorExcess<LabAxis::a, 1>, ColorExcess<LabAxis::a, -1>,
                                   ColorExcess<LabAxis::b, 1>, ColorExcess<LabAxis::b, -1>>;
 
@@ -8038,11 +8045,11 @@ struct FinishText<RootOfShares<PerMille>> {
     add_all(text, ", ", name_of<RootOfShares<PerMille>>(), ", length ", PerMille, "/1000");
   }
 };
-template <int PerMille, int FloorPercent>
-struct FinishText<SignedRoots<PerMille, FloorPercent>> {
+template <int PerMille, int FloorPercent, int NoisePerMille>
+struct FinishText<SignedRoots<PerMille, FloorPercent, NoisePerMille>> {
   static void add_to(std::string& text) {
-    add_all(text, ", ", name_of<SignedRoots<PerMille, FloorPercent>>(), ", length ", PerMille, "/1000, floor ",
-            FloorPercent, "/100");
+    add_all(text, ", ", name_of<SignedRoots<PerMille, FloorPercent, NoisePerMille>>(), ", length ", PerMille,
+            "/1000, floor ", FloorPercent, "/100, noise ", NoisePerMille, "/1000");
   }
 };
 

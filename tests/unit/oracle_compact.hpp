@@ -109,7 +109,7 @@ std::vector<double> roots_of_means(const std::vector<Seen>& points, const Grid& 
     sums[i] /= votes[i / Count] + 0.3 * static_cast<double>(points.size()) / static_cast<double>(cells);
     total += std::abs(sums[i]);
   }
-  for (double& m : sums) m = std::copysign(0.6 * std::sqrt(std::abs(m)) / std::sqrt(total), m);
+  for (double& m : sums) m = std::copysign(0.7 * (std::sqrt(std::abs(m) + 0.01) - 0.1) / std::sqrt(total), m);
   return sums;
 }
 

@@ -40,19 +40,20 @@ inline namespace SHORTSHOT_TYPES {
 template <class Grid>
 using HeightPart = Part<Grid, Occupancy, LinearRadius, HeightCells, RootOfShares<1000>>;
 
-/// Where colors are: how each cell's mean color differs from the neighborhood's. Length 0.6 at most, less where there
-/// is little contrast. 3 R E A values, k = 0, 1, 2 for q = dL / 100, da / 60, db / 60:
+/// Where colors are: how each cell's mean color differs from the neighborhood's. Length 0.7 at most, less where there
+/// is little contrast, and a hundredth of q's range is taken for noise. 3 R E A values, k = 0, 1, 2 for q = dL / 100,
+/// da / 60, db / 60:
 ///
 ///     m[c][k] = (sum w q[k]) / (sum w + 0.3 W / (R E A))      c = r + R (e + E a)
-///     value[k + 3 c] = 0.6 sign(m) sqrt(|m| / (FloorPercent / 100 + sum of all |m|))
+///     value[k + 3 c] = 0.7 sign(m) (sqrt(|m| + 0.01) - 0.1) / sqrt(FloorPercent / 100 + sum of all |m|)
 template <class Grid, int FloorPercent>
-using ColorMeansPart = CellMeans<Grid, HeightCells, SignedRoots<600, FloorPercent>, 30, ColorOffset<LabAxis::L>,
+using ColorMeansPart = CellMeans<Grid, HeightCells, SignedRoots<700, FloorPercent, 10>, 30, ColorOffset<LabAxis::L>,
                                  ColorOffset<LabAxis::a>, ColorOffset<LabAxis::b>>;
 
 /// The same for rooms, where near things hide far ones: what is above the mean and what is below, apart. 6 R E A
 /// values, value[k + 6 c], k = 0 to 5 for q = max(0, dL) / 100, max(0, -dL) / 100, max(0, da) / 60 and so on.
 template <class Grid, int FloorPercent>
-using ColorExcessPart = CellMeans<Grid, HeightCells, SignedRoots<600, FloorPercent>, 30, ColorExcess<LabAxis::L, 1>,
+using ColorExcessPart = CellMeans<Grid, HeightCells, SignedRoots<700, FloorPercent, 10>, 30, ColorExcess<LabAxis::L, 1>,
                                   ColorExcess<LabAxis::L, -1>, ColorExcess<LabAxis::a, 1>, ColorExcess<LabAxis::a, -1>,
                                   ColorExcess<LabAxis::b, 1>, ColorExcess<LabAxis::b, -1>>;
 

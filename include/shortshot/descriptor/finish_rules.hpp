@@ -42,23 +42,29 @@ struct RootOfShares {
 };
 
 /// Square roots of signed values, their signs kept, over the root of (floor + sum of magnitudes): where there is little
-/// to see, the part shrinks instead of blowing up noise. It is never longer than its weight, `PerMille` / 1000; the
-/// floor is `FloorPercent` / 100.
-template <int PerMille, int FloorPercent>
+/// to see, the part shrinks. A root is infinitely steep at 0, where it makes much of noise; so it is taken of more than
+/// the value and begins at 0 all the same: sqrt(|v| + noise) - sqrt(noise). The part is never longer than its weight,
+/// `PerMille` / 1000; the floor is `FloorPercent` / 100, the noise `NoisePerMille` / 1000.
+template <int PerMille, int FloorPercent, int NoisePerMille = 0>
 struct SignedRoots {
   static_assert(PerMille >= 1 && PerMille <= 100000,
-                "SignedRoots<PerMille, Floor> supports weights from 1 / 1000 to 100");
-  static_assert(FloorPercent >= 1, "SignedRoots<PerMille, Floor> supports floors of 1 percent or more");
+                "SignedRoots<PerMille, Floor, Noise> supports weights from 1 / 1000 to 100");
+  static_assert(FloorPercent >= 1, "SignedRoots<PerMille, Floor, Noise> supports floors of 1 percent or more");
+  static_assert(NoisePerMille >= 0 && NoisePerMille <= 1000,
+                "SignedRoots<PerMille, Floor, Noise> supports noise from 0 to 1");
   static constexpr const char* name = "signed roots";
   static constexpr int per_mille = PerMille;
   static constexpr int floor_percent = FloorPercent;
+  static constexpr int noise_per_mille = NoisePerMille;
 
   static void apply(float* values, int size) noexcept {
+    constexpr float noise = static_cast<float>(NoisePerMille) / 1000.0f;
     float sum = static_cast<float>(FloorPercent) / 100.0f;
     for (int i = 0; i < size; ++i) sum += detail::magnitude(values[i]);
     const float weight = static_cast<float>(PerMille) / 1000.0f / detail::root(sum);
+    const float start = detail::root(noise);
     for (int i = 0; i < size; ++i) {
-      const float long_one = weight * detail::root(detail::magnitude(values[i]));
+      const float long_one = weight * (detail::root(detail::magnitude(values[i]) + noise) - start);
       values[i] = values[i] < 0.0f ? -long_one : long_one;
     }
   }

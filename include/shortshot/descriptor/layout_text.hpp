@@ -62,11 +62,11 @@ struct FinishText<RootOfShares<PerMille>> {
     add_all(text, ", ", name_of<RootOfShares<PerMille>>(), ", length ", PerMille, "/1000");
   }
 };
-template <int PerMille, int FloorPercent>
-struct FinishText<SignedRoots<PerMille, FloorPercent>> {
+template <int PerMille, int FloorPercent, int NoisePerMille>
+struct FinishText<SignedRoots<PerMille, FloorPercent, NoisePerMille>> {
   static void add_to(std::string& text) {
-    add_all(text, ", ", name_of<SignedRoots<PerMille, FloorPercent>>(), ", length ", PerMille, "/1000, floor ",
-            FloorPercent, "/100");
+    add_all(text, ", ", name_of<SignedRoots<PerMille, FloorPercent, NoisePerMille>>(), ", length ", PerMille,
+            "/1000, floor ", FloorPercent, "/100, noise ", NoisePerMille, "/1000");
   }
 };
 

@@ -81,17 +81,18 @@ TEST_CASE("layout: compact descriptors, as compact.hpp says") {
   const std::string begin = "multilinear voting, height cells: ";
   const std::string points = " equal shells, root of shares, length 1000/1000";
   const std::string means = " (published Lab from mean color) shrunk by 30/100 ";
-  const std::string roots = " equal shells, signed roots, length 600/1000, floor ";
+  const std::string roots = " equal shells, signed roots, length 700/1000, floor ";
   const std::string offsets = "means of lightness offset & a offset & b offset" + means;
   CHECK(ss::layout_of<ss::ShapeColor95>() == begin + "occupancy 2x4x8" + points + " | " + offsets + "3x1x8" + roots +
-                                                 "100/100" + rings("6 bins (published Lab from mean color) 3x1x1"));
-  CHECK(ss::layout_of<ss::ShapeColor32>() == begin + offsets + "2x1x4" + roots + "49/100" +
+                                                 "100/100, noise 10/1000" +
+                                                 rings("6 bins (published Lab from mean color) 3x1x1"));
+  CHECK(ss::layout_of<ss::ShapeColor32>() == begin + offsets + "2x1x4" + roots + "49/100, noise 10/1000" +
                                                  rings("4 bins (published Lab from mean color) 2x1x1") +
                                                  " | occupancy 1x4x4" + points);
   CHECK(ss::layout_of<ss::RoomColor95>() ==
         begin + "occupancy 2x4x8" + points +
             " | means of lightness above & lightness below & a above & a below & b above & b below" + means + "2x1x8" +
-            roots + "100/100" + rings("5 bins (published Lab from mean color) 2x1x1"));
+            roots + "100/100, noise 10/1000" + rings("5 bins (published Lab from mean color) 2x1x1"));
   CHECK(ss::layout_of<ss::HeightShape96>() == begin + "occupancy 3x8x8" + points);
   CHECK(ss::layout_of<ss::ColorRings27>() == begin + rings("6 bins (published Lab from mean color) 3x1x1").substr(3));
 }
