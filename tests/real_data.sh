@@ -21,4 +21,6 @@ for experiment in matching recognition ablation; do
   rm -rf "${results:?}/$experiment"  # results of another version
   show "$programs/paper" $experiment --quick --check --out "$results/$experiment" "$shared/data"
 done
+rm -rf "${results:?}/tradeoff"
+show "$programs/tradeoff" draw --quick --check --out "$results/tradeoff" "$shared/data"
 echo "real-data checks passed"

@@ -1,5 +1,7 @@
 #include "tradeoff/candidate.hpp"
 
+#include <memory>
+
 #include "tradeoff/family/family.hpp"
 
 namespace shortshot_bench::tradeoff {
@@ -20,6 +22,15 @@ Candidate compact(std::string name, std::string board_name = {}) {
   return with_nibbles<D>(c);
 }
 
+/// The same in a frame whose x axis a lamp turns.
+template <class D>
+Candidate under_fixed_lamp(Candidate c) {
+  c.configuration.name += "-fixedlamp";
+  c.configuration.describe = c.describe_alone = describe_under_fixed_lamp<D>;
+  c.board_name.clear();
+  return c;
+}
+
 /// The same in a frame whose z axis is turned to the camera.
 Candidate towards_camera(Candidate c) {
   c.configuration.name += "-view";
@@ -27,7 +38,28 @@ Candidate towards_camera(Candidate c) {
   return c;
 }
 
+constexpr std::size_t most_neighbors = 20000;
+
 }  // namespace
+
+FixedLampFrames fixed_lamp_frames(const shortshot::CloudView& cloud, const shortshot::GridSearch& search,
+                                  const std::vector<shortshot::KeyPoint>& keypoints,
+                                  const shortshot::Support& support) {
+  const auto workspace = std::make_unique<shortshot::Workspace<most_neighbors>>();
+  FixedLampFrames result;
+  for (const shortshot::KeyPoint& key : keypoints) {
+    shortshot::Neighborhood n = shortshot::neighborhood_in(*workspace);
+    shortshot::Frame frame{};
+    shortshot::Status status = search.gather(key.position, support.frame_radius, n);
+    if (status == shortshot::Status::ok) {
+      const shortshot::RgbColors<shortshot::PublishedLab> colors(cloud, key.color);
+      status = shortshot::estimate_frame_under_fixed_lamp(n, colors, support.frame_radius, frame, support.viewpoint);
+    }
+    result.frames.push_back(frame);
+    result.status.push_back(status);
+  }
+  return result;
+}
 
 std::vector<Candidate> candidates(bool quick) {
   using namespace shortshot;
@@ -48,6 +80,7 @@ std::vector<Candidate> candidates(bool quick) {
   all.push_back(compact<RoomColor95>("roomcolor95"));
   all.push_back(compact<HeightShape96>("heightshape96"));
   all.push_back(compact<ColorRings27>("colorrings27"));
+  all.push_back(under_fixed_lamp<ShapeColor95>(compact<ShapeColor95>("shapecolor95")));
   for (Candidate& member : family()) all.push_back(std::move(member));
   return all;
 }

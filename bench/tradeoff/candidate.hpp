@@ -15,7 +15,8 @@ enum class Kind { published, compact, relative };
 
 struct Candidate {
   paper::Configuration configuration;
-  std::vector<Storage> storages;  // floats first
+  paper::Describe describe_alone;  // without the frames of descriptors that need none: what describing costs
+  std::vector<Storage> storages;   // floats first
   Kind kind;
   std::string board_name;  // in the tables of microcontrollers; empty: it was not built for them
 };
@@ -30,10 +31,43 @@ inline constexpr const char* color_baseline = "cshot1344-float";
 inline constexpr const char* shape_baseline = "shot352-float";
 inline constexpr const char* plain_baseline = "shot352-view-float";  // where there is color that tells nothing
 
+struct FixedLampFrames {
+  std::vector<shortshot::Frame> frames;
+  std::vector<shortshot::Status> status;
+};
+FixedLampFrames fixed_lamp_frames(const shortshot::CloudView& cloud, const shortshot::GridSearch& search,
+                                  const std::vector<shortshot::KeyPoint>& keypoints, const shortshot::Support& support);
+
+/// extract(), and nothing else.
+template <class D>
+paper::Described extract_as(const shortshot::CloudView& cloud, const shortshot::GridSearch& search,
+                            const std::vector<shortshot::KeyPoint>& keypoints, const shortshot::Support& support,
+                            const paper::KeptFrames&) {
+  shortshot::Features<D> features;
+  paper::require(shortshot::extract(cloud, search, keypoints, support, features));
+  return {std::move(features.values), std::move(features.status), std::move(features.frames), keypoints,
+          static_cast<std::size_t>(D::size)};
+}
+
+/// The frames' x axes point to where it is brighter.
+template <class D>
+paper::Described describe_under_fixed_lamp(const shortshot::CloudView& cloud, const shortshot::GridSearch& search,
+                                           const std::vector<shortshot::KeyPoint>& keypoints,
+                                           const shortshot::Support& support, const paper::KeptFrames&) {
+  const FixedLampFrames frames = fixed_lamp_frames(cloud, search, keypoints, support);
+  shortshot::Features<D> features;
+  paper::require(shortshot::extract(cloud, search, keypoints, frames.frames, support.radius, features));
+  for (std::size_t row = 0; row < features.size(); ++row) {
+    if (frames.status[row] != shortshot::Status::ok) features.status[row] = frames.status[row];
+  }
+  return {std::move(features.values), std::move(features.status), std::move(features.frames), keypoints,
+          static_cast<std::size_t>(D::size)};
+}
+
 /// One with nothing but floats.
 template <class D>
 Candidate candidate(std::string name, Kind kind, std::string board_name = {}) {
-  return {paper::configuration<D>(std::move(name)), {float_storage<D>()}, kind, std::move(board_name)};
+  return {paper::configuration<D>(std::move(name)), extract_as<D>, {float_storage<D>()}, kind, std::move(board_name)};
 }
 
 template <class D>

@@ -37,8 +37,8 @@ class Workload {
   paper::Described describe(const Candidate& candidate) const {
     shortshot::Support support(radius);
     if (candidate.configuration.wants_viewpoint) support.viewpoint = camera_of_cloud(cloud_);
-    return candidate.configuration.describe(shortshot::with_normals(view_of_cloud(cloud_), normals_.data()), *search_,
-                                            keypoints_, support, {});
+    return candidate.describe_alone(shortshot::with_normals(view_of_cloud(cloud_), normals_.data()), *search_,
+                                    keypoints_, support, {});
   }
 
  private:

@@ -1,6 +1,7 @@
 // tradeoff draw DATA... | merge FOLDER... | count: the map of bytes, time and accuracy.
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <stdexcept>
 
 #include "paper/campaign/atomic_file.hpp"
@@ -22,6 +23,22 @@ int check(const paper::Findings& findings, bool quick) {
   for (const std::string& sentence : broken) std::fprintf(stderr, "BROKEN: %s\n", sentence.c_str());
   if (broken.empty()) std::printf("all figures are within their bands\n");
   return broken.empty() ? 0 : 1;
+}
+
+/// The tables for bench/TRADEOFF.md, which ./run results puts there, and its plots.
+void record(const campaign::Report& report, const std::string& out, const std::string& folder) {
+  nlohmann::ordered_json tables;
+  for (const campaign::Section& section : report.sections) {
+    for (const campaign::NamedTable& named : section.tables) {
+      if (named.name == "all" || named.name == "figures" || named.name.find("measure") == 0) continue;
+      tables[named.name] = {{"title", named.table.title()}, {"markdown", named.table.markdown()}};
+    }
+    for (const std::string& plot : section.plots) {
+      std::filesystem::copy_file(out + "/" + plot, folder + "/tradeoff_" + plot,
+                                 std::filesystem::copy_options::overwrite_existing);
+    }
+  }
+  campaign::write_atomically(folder + "/tradeoff.json", tables.dump(1) + "\n");
 }
 
 void print_best(const Map& map, const TradeoffOptions& options) {
@@ -59,6 +76,7 @@ int report_on(const TradeoffOptions& options) {
     }
   }
   print_best(map, options);
+  if (!options.record.empty()) record(findings.report, options.out, options.record);
   std::printf("written: %s/report.md, report.json, *.csv, *.svg\n", options.out.c_str());
   return options.check ? check(findings, quick) : 0;
 }

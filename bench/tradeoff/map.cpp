@@ -40,12 +40,15 @@ bool score(const std::vector<Measure>& measures, const std::string& entry, const
   return true;
 }
 
+/// Times closer than this are the same: they were measured.
+constexpr double time_tolerance = 1.05;
+
 /// Is `other` no worse than `entry` in anything, and better in something?
 bool beats(const Entry& other, const Entry& entry) {
-  if (other.size_bytes > entry.size_bytes || other.cost.relative > entry.cost.relative || other.score < entry.score) {
-    return false;
-  }
-  return other.size_bytes < entry.size_bytes || other.cost.relative < entry.cost.relative || other.score > entry.score;
+  const bool slower = other.cost.relative > time_tolerance * entry.cost.relative;
+  if (other.size_bytes > entry.size_bytes || slower || other.score < entry.score) return false;
+  const bool faster = time_tolerance * other.cost.relative < entry.cost.relative;
+  return other.size_bytes < entry.size_bytes || faster || other.score > entry.score;
 }
 
 }  // namespace

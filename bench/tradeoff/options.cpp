@@ -25,6 +25,7 @@ void add_report_options(CLI::App& command, TradeoffOptions& options) {
   command.add_option("--microseconds", options.most_time_us, "which is the best that takes no longer, a key point?")
       ->check(finite_and_positive);
   command.add_option("--instructions", options.instructions, "what `count` had callgrind write");
+  command.add_option("--record", options.record, "folder for what bench/TRADEOFF.md shows: bench/results");
   command.add_flag("--check", options.check, "exit 1 if a figure is outside of the bands in bench/tradeoff/bands.json");
 }
 

@@ -13,6 +13,7 @@ struct TradeoffOptions {
   std::vector<std::string> data;  // folders: data sets; of merge: results
   std::string out = "tradeoff";   // folder of the results
   std::string instructions;       // callgrind's output of `count`; empty: none
+  std::string record;             // folder for what bench/TRADEOFF.md shows; empty: none
   campaign::Shard shard;
   unsigned threads = 0;       // 0: as many as there are cores
   double most_bytes = 0.0;    // 0: any number
