@@ -295,6 +295,15 @@ inline constexpr float whole_numbers = 12582912.0f;
 }  // namespace shortshot::extend
 #endif  // SHORTSHOT_BASE_UNFUSED_HPP
 
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
+
+/// Four integers side by side in memory: one addition where there are lanes.
+using Quad = std::int32_t __attribute__((vector_size(16)));
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd
+
 #if defined(__AVX2__)
 
 // shortshot/base/simd_avx2.hpp: the lane shim on AVX2, 8 lanes. Included by simd.hpp, which says what it must do.
@@ -419,6 +428,20 @@ template <class Function>
 /// -a where `sign` has its sign bit set, else a.
 [[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept {
   return {_mm256_xor_ps(a.v, _mm256_and_ps(sign.v, _mm256_set1_ps(-0.0f)))};
+}
+
+/// What each lane has in a, b, c and d.
+[[gnu::always_inline]] inline void transpose(I32 a, I32 b, I32 c, I32 d, Quad (&quads)[lanes]) noexcept {
+  const __m256i ab[2] = {_mm256_unpacklo_epi32(a.v, b.v), _mm256_unpackhi_epi32(a.v, b.v)};
+  const __m256i cd[2] = {_mm256_unpacklo_epi32(c.v, d.v), _mm256_unpackhi_epi32(c.v, d.v)};
+  const auto put = [&](std::size_t k, __m256i both) {  // lanes k and k + 4
+    quads[k] = reinterpret_cast<Quad>(_mm256_castsi256_si128(both));
+    quads[k + 4] = reinterpret_cast<Quad>(_mm256_extracti128_si256(both, 1));
+  };
+  for (std::size_t k = 0; k < 2; ++k) {
+    put(2 * k, _mm256_unpacklo_epi64(ab[k], cd[k]));
+    put(2 * k + 1, _mm256_unpackhi_epi64(ab[k], cd[k]));
+  }
 }
 
 /// The three floats at base + 3 * index[k], for all lanes.
@@ -610,6 +633,16 @@ template <class Function>
   return {_mm_xor_ps(a.v, _mm_and_ps(sign.v, _mm_set1_ps(-0.0f)))};
 }
 
+/// What each lane has in a, b, c and d.
+[[gnu::always_inline]] inline void transpose(I32 a, I32 b, I32 c, I32 d, Quad (&quads)[lanes]) noexcept {
+  const __m128i ab[2] = {_mm_unpacklo_epi32(a.v, b.v), _mm_unpackhi_epi32(a.v, b.v)};
+  const __m128i cd[2] = {_mm_unpacklo_epi32(c.v, d.v), _mm_unpackhi_epi32(c.v, d.v)};
+  for (std::size_t k = 0; k < 2; ++k) {
+    quads[2 * k] = reinterpret_cast<Quad>(_mm_unpacklo_epi64(ab[k], cd[k]));
+    quads[2 * k + 1] = reinterpret_cast<Quad>(_mm_unpackhi_epi64(ab[k], cd[k]));
+  }
+}
+
 /// The three floats at base + 3 * index[k], for all lanes.
 [[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
                                                 F32& c) noexcept {
@@ -775,6 +808,17 @@ template <class Function>
 [[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept {
   const uint32x4_t bit = vandq_u32(vreinterpretq_u32_f32(sign.v), vdupq_n_u32(0x80000000u));
   return {vreinterpretq_f32_u32(veorq_u32(vreinterpretq_u32_f32(a.v), bit))};
+}
+
+/// What each lane has in a, b, c and d.
+[[gnu::always_inline]] inline void transpose(I32 a, I32 b, I32 c, I32 d, Quad (&quads)[lanes]) noexcept {
+  const int32x4x2_t ac = vzipq_s32(a.v, c.v);
+  const int32x4x2_t bd = vzipq_s32(b.v, d.v);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const int32x4x2_t both = vzipq_s32(ac.val[k], bd.val[k]);
+    quads[2 * k] = reinterpret_cast<Quad>(both.val[0]);
+    quads[2 * k + 1] = reinterpret_cast<Quad>(both.val[1]);
+  }
 }
 
 /// The three floats at base + 3 * index[k], for all lanes.
@@ -3103,6 +3147,19 @@ constexpr bool has_rule(...) noexcept {
   return true;
 }
 
+/// A key point where colors are compared with their mean: nobody asks for its own, which may be missing.
+struct KeyWithoutColor : KeyPoint {
+  explicit KeyWithoutColor(const KeyPoint& key) noexcept : KeyPoint(key) {}
+};
+template <class Rule>
+[[nodiscard]] inline Lab reference_at(const KeyPoint& key) noexcept {
+  return to_lab<Rule>(key.color);
+}
+template <class Rule>
+[[nodiscard]] inline Lab reference_at(const KeyWithoutColor&) noexcept {
+  return {0.0f, 0.0f, 0.0f};
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 
@@ -3120,6 +3177,7 @@ struct RgbColors {
   RgbColors(const CloudView& cloud, const Rgb& color) noexcept : bytes(cloud.colors) {
     detail::put_lab<LabRule>(color, reference);
   }
+  explicit RgbColors(const CloudView& cloud) noexcept : bytes(cloud.colors), reference{0.0f, 0.0f, 0.0f} {}
   [[nodiscard]] Status status() const noexcept { return bytes.r != nullptr ? Status::ok : Status::missing_colors; }
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept {
     return to_lab<LabRule>(extend::read(bytes, index));
@@ -3129,6 +3187,9 @@ struct RgbColors {
     RgbColors colors(cloud, key.color);
     if (!key.has_color) colors.bytes.r = nullptr;
     return colors;
+  }
+  [[nodiscard]] static RgbColors at(const CloudView& cloud, const detail::KeyWithoutColor&) noexcept {
+    return RgbColors(cloud);
   }
   /// May a source stand in for this one? StoredColors and whatever else gives a Lab by index may; if it says by which
   /// rule its colors were converted, it must be this one.
@@ -3934,6 +3995,15 @@ inline namespace SHORTSHOT_CODE {
 [[nodiscard]] inline float positive(float value) noexcept { return value > 0.0f ? value : 0.0f; }
 [[nodiscard]] inline float magnitude(float value) noexcept { return value < 0.0f ? -value : value; }
 
+/// `values` holds sums of votes, which some rules make negative here and there: these count as 0.
+inline void roots_of_shares(float* values, int size, float length) noexcept {
+  float sum = 0.0f;
+  for (int i = 0; i < size; ++i) sum += positive(values[i]);
+  if (!(sum > 0.0f)) return;
+  const float weight = length / root(sum);
+  for (int i = 0; i < size; ++i) values[i] = weight * root(positive(values[i]));
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 
@@ -3953,13 +4023,8 @@ struct RootOfShares {
   static constexpr const char* name = "root of shares";
   static constexpr int per_mille = PerMille;
 
-  /// `values` holds sums of votes, which some rules make negative here and there: these count as 0.
   static void apply(float* values, int size) noexcept {
-    float sum = 0.0f;
-    for (int i = 0; i < size; ++i) sum += detail::positive(values[i]);
-    if (!(sum > 0.0f)) return;
-    const float weight = static_cast<float>(PerMille) / 1000.0f / detail::root(sum);
-    for (int i = 0; i < size; ++i) values[i] = weight * detail::root(detail::positive(values[i]));
+    detail::roots_of_shares(values, size, static_cast<float>(PerMille) / 1000.0f);
   }
 };
 
@@ -5514,14 +5579,10 @@ template <bool AreIntegers>
   return Status::ok;
 }
 
-/// One part's integers to its values: means by their cells' votes, then as its rule says.
+/// One part's sums to its values: means by their cells' votes, then as its rule says.
 template <class Part>
-inline void finish_part(float* values, float* weights) noexcept {
-  to_floats(values, Part::size);
-  if constexpr (Part::weight_cells > 0) {
-    to_floats(weights, Part::weight_cells);
-    divide_by_votes<Part>(values, weights);
-  }
+inline void finish_part(float* values, [[maybe_unused]] float* weights) noexcept {
+  if constexpr (Part::weight_cells > 0) divide_by_votes<Part>(values, weights);
   if constexpr (!std::is_same<typename Part::Finish, PlainSums>::value) Part::Finish::apply(values, Part::size);
 }
 
@@ -5533,6 +5594,8 @@ template <class Voting, class... Parts, std::size_t... I>
   if constexpr (D::is_plain) {
     return normalize<true>(values, D::size);
   } else {
+    to_floats(values, D::size);
+    to_floats(weights, D::weight_cells);
     (finish_part<Parts>(values + D::offset(I), weights + D::weight_offset(I)), ...);
     return normalize<false>(values, D::size);
   }
@@ -5615,15 +5678,10 @@ template <class LabRule, class Neighbors, class First, class... Others>
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_KERNEL_MEAN_COLOR_HPP
 
-// shortshot/kernel/soft_votes.hpp: multilinear votes for parts of compact descriptors.
-//
-// A point lies between the middles of two cells on each axis, and votes for both. The four cells between which it lies
-// on two axes (or the four numbers that a cell of means adds up) are kept side by side, in a quad: one addition for
-// four votes. Cells are so kept several times over, once for each quad they belong to, and brought together at the end.
-#ifndef SHORTSHOT_KERNEL_SOFT_VOTES_HPP
-#define SHORTSHOT_KERNEL_SOFT_VOTES_HPP
-
-#include <limits>
+// shortshot/kernel/soft_cells.hpp: soft votes where there is one lane: each to its cell. For speed every part has code
+// of its own; where code shall be small all of them share one loop over tables. The same bits.
+#ifndef SHORTSHOT_KERNEL_SOFT_CELLS_HPP
+#define SHORTSHOT_KERNEL_SOFT_CELLS_HPP
 
 // shortshot/kernel/soft_layout.hpp: where the quads of a compact descriptor's parts are, see soft_votes.hpp; all of it
 // known while compiling.
@@ -5635,10 +5693,15 @@ inline namespace SHORTSHOT_CODE {
 
 /// An axis with more than one cell. `row`: the coordinate, 3 for the signal. `stride`: in the descriptor, of its cells.
 struct SoftAxis {
-  int row, cells, stride;
-  bool around;
-  /// Places of the lower cell. Around the end, the upper cell of the last one is the first.
-  [[nodiscard]] constexpr int lowers() const noexcept { return around ? cells : cells - 1; }
+  std::int16_t row, cells, stride;
+  /// The azimuth's: the upper cell of the last one is the first.
+  [[nodiscard]] constexpr bool is_around() const noexcept { return row == 2; }
+  /// Places of the lower cell.
+  [[nodiscard]] constexpr int lowers() const noexcept { return is_around() ? cells : cells - 1; }
+  /// The same where parts' signals are told apart.
+  [[nodiscard]] constexpr SoftAxis of_part(int part) const noexcept {
+    return {static_cast<std::int16_t>(row < 3 ? row : 3 + part), cells, stride};
+  }
 };
 
 /// Where a part's quads are. The first two axes are within a quad (none, where quads are a cell's numbers); cells of
@@ -5651,15 +5714,17 @@ struct SoftLayout {
   int strides[4];  ///< in quads
   int quads;
 
-  constexpr void add(SoftAxis axis) noexcept {
-    if (axis.cells > 1) axes[count++] = axis;
+  constexpr void add(int row, int axis_cells, int stride) noexcept {
+    if (axis_cells == 1) return;
+    axes[count++] = {static_cast<std::int16_t>(row), static_cast<std::int16_t>(axis_cells),
+                     static_cast<std::int16_t>(stride)};
   }
   constexpr void lay_out(int axes_within) noexcept {
     within = count < axes_within ? count : axes_within;
     quads = of_cell;
     for (int i = 0; i < count; ++i) {
       strides[i] = quads;
-      quads *= i < within ? axes[i].lowers() : axes[i].cells + (axes[i].around ? 1 : 0);
+      quads *= i < within ? axes[i].lowers() : axes[i].cells + (axes[i].is_around() ? 1 : 0);
     }
   }
   [[nodiscard]] constexpr int corners() const noexcept { return 1 << (count - within); }
@@ -5671,13 +5736,40 @@ inline constexpr SoftLayout soft_layout = [] {
   constexpr bool means = Part::weight_cells > 0;
   constexpr extend::CellStrides cells = Part::Cells::template strides<typename Part::Grid>;
   layout.of_cell = means ? (Part::values + 4) / 4 : 1;
-  if (!means) layout.add({3, Part::values, 1, false});
-  layout.add({0, Part::Grid::radial, Part::values * cells.radial, false});
-  layout.add({1, Part::Grid::elevation, Part::values * cells.elevation, false});
-  layout.add({2, Part::Grid::azimuth, Part::values * cells.azimuth, true});
+  if (!means) layout.add(3, Part::values, 1);
+  layout.add(0, Part::Grid::radial, Part::values * cells.radial);
+  layout.add(1, Part::Grid::elevation, Part::values * cells.elevation);
+  layout.add(2, Part::Grid::azimuth, Part::values * cells.azimuth);
   layout.lay_out(means ? 0 : 2);
   return layout;
 }();
+
+/// The axes of all parts, those with the same cells of the same coordinate once: a point's place on each is found once.
+template <int Parts>
+struct SoftPlaces {
+  SoftAxis axes[static_cast<std::size_t>(4 * Parts)];
+  int count;
+
+  [[nodiscard]] constexpr int find(const SoftAxis& axis) const noexcept {
+    int k = 0;
+    while (k < count && (axes[k].row != axis.row || axes[k].cells != axis.cells)) ++k;
+    return k;
+  }
+  constexpr void add(const SoftLayout& layout, int part) noexcept {
+    for (int i = 0; i < layout.count; ++i) {
+      const SoftAxis axis = layout.axes[i].of_part(part);
+      if (find(axis) == count) axes[count++] = axis;
+    }
+  }
+};
+
+template <class Voting, class... Parts>
+constexpr SoftPlaces<sizeof...(Parts)> soft_places(Descriptor<Voting, Parts...>) noexcept {
+  SoftPlaces<sizeof...(Parts)> places{};
+  int part = 0;
+  (places.add(soft_layout<Parts>, part++), ...);
+  return places;
+}
 
 /// All quads of a descriptor's parts before part `part`.
 template <class Voting, class... Parts>
@@ -5688,14 +5780,19 @@ constexpr int soft_quads(Descriptor<Voting, Parts...>, int part) noexcept {
   return sum;
 }
 
-/// Most quads on the stack: 8 KB.
-inline constexpr int most_quads = 512;
+/// Most quads: with those of every lane 16 KB of stack.
+inline constexpr int most_quads = 1024 / static_cast<int>(simd::lanes);
+
+template <class Voting, class... Parts>
+constexpr bool has_linear_radii(Descriptor<Voting, Parts...>) noexcept {
+  return (Parts::Scale::is_linear && ...);
+}
 
 /// Are a descriptor's votes added up in quads? Those of compact ones, if there are not too many.
 template <class D>
 constexpr bool is_soft() noexcept {
   constexpr bool is_compact = std::is_same<typename D::Voting, MultilinearVoting>::value && !D::is_plain &&
-                              std::is_same<typename D::Cells, HeightCells>::value;
+                              std::is_same<typename D::Cells, HeightCells>::value && has_linear_radii(D{});
   if constexpr (is_compact) return soft_quads(D{}, D::parts) <= most_quads;
   return false;
 }
@@ -5710,17 +5807,13 @@ constexpr int quads_of() noexcept {
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_KERNEL_SOFT_LAYOUT_HPP
 
+// shortshot/kernel/soft_shares.hpp: how points are shared among the cells around them where votes are soft. A point
+// lies between the middles of two cells on each axis, and votes for both.
+#ifndef SHORTSHOT_KERNEL_SOFT_SHARES_HPP
+#define SHORTSHOT_KERNEL_SOFT_SHARES_HPP
+
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
-
-using Quad = float __attribute__((vector_size(16)));
-using QuadSum = std::int32_t __attribute__((vector_size(16)));
-
-/// -a where `sign` is set. (A product with -1 and the sum that follows would be fused, if harmlessly.)
-inline constexpr std::int32_t sign_bit = std::numeric_limits<std::int32_t>::min();
-[[nodiscard]] SHORTSHOT_INLINE Quad negated(const Quad& a, const QuadSum& signs) noexcept {
-  return reinterpret_cast<Quad>(reinterpret_cast<QuadSum>(a) ^ signs);
-}
 
 /// Along one axis: the lower of the two cells, and the share of the upper one.
 struct Between {
@@ -5732,150 +5825,380 @@ struct Between {
   using simd::all;
   const auto cells = static_cast<float>(axis.cells);
   const simd::F32 place = coordinate * all(cells) - all(0.5f);
-  const simd::F32 from_first = axis.around ? place + keep(place < all(0.0f), all(cells))
-                                           : simd::max(simd::min(place, all(cells - 1.0f)), all(0.0f));
+  const simd::F32 from_first = axis.is_around() ? place + keep(place < all(0.0f), all(cells))
+                                                : simd::max(simd::min(place, all(cells - 1.0f)), all(0.0f));
   const simd::I32 lower = simd::small_min(truncate_to_int(from_first), simd::all_int(axis.lowers() - 1));
   return {lower, from_first - to_float(lower)};
 }
 
-/// What a register's neighbors have for one part, lane by lane.
-template <class Part>
-struct SoftLanes {
-  static constexpr SoftLayout layout = soft_layout<Part>;
-  static constexpr int corners = layout.corners();
-  std::uint32_t quad[simd::lanes];                               // of the lower cells: its place in bytes
-  float within[2][simd::lanes];                                  // shares of the upper cells
-  float corner[static_cast<std::size_t>(corners)][simd::lanes];  // weights of rows of quads, in units
+/// Where in its histogram a measured value lies; between() cuts off what lies beyond.
+template <class Signal>
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 soft_place(simd::F32 measured) noexcept {
+  if constexpr (Signal::is_signed) return Signal::place(measured);
+  return measured;
+}
 
-  SHORTSHOT_INLINE void set(const simd::F32 (&coordinates)[4], simd::F32 one) noexcept {
-    simd::I32 first = simd::all_int(0);
-    simd::F32 weight[static_cast<std::size_t>(corners)];
-    weight[0] = one;
+/// Where the points of a register lie on all axes of a descriptor.
+template <class D>
+struct SoftPoints {
+  static constexpr auto places = soft_places(D{});
+  simd::F32 unit;  ///< what a point counts for
+  simd::F32 coordinates[static_cast<std::size_t>(3 + D::parts)];
+  Between between[static_cast<std::size_t>(places.count)];
+
+  template <class... Parts, class Chunk>
+  SHORTSHOT_INLINE void locate(Descriptor<typename D::Voting, Parts...>, const Chunk& chunk, std::uint32_t i) noexcept {
+    unroll<3>([&](auto k) { coordinates[k] = simd::load(chunk.row(k, i)); });
+    int part = 3;
+    (locate_signal<Parts>(chunk, i, coordinates[part++]), ...);
+    unroll<places.count>([&](auto k) {
+      constexpr SoftAxis axis = places.axes[k];
+      between[k] = detail::between(coordinates[axis.row], axis);
+    });
+  }
+
+ private:
+  template <class Part, class Chunk>
+  SHORTSHOT_INLINE static void locate_signal(const Chunk& chunk, std::uint32_t i, simd::F32& place) noexcept {
+    if constexpr (Part::weight_cells == 0) {
+      using Signal = typename Part::Signal;
+      if constexpr (Part::has_histogram) {
+        place = soft_place<Signal>(simd::load(chunk.row(Chunk::template row_of<Signal>, i)));
+      }
+    }
+  }
+};
+
+/// The values of signals for a register's neighbors.
+template <class Chunk, class... Signals>
+SHORTSHOT_INLINE void values_of(SignalList<Signals...>, const Chunk& chunk, std::uint32_t i,
+                                simd::F32* values) noexcept {
+  ((*values++ = Signals::value(simd::load(chunk.row(Chunk::template row_of<Signals>, i)))), ...);
+}
+
+/// How the points of a register are shared among the cells around them, for part `I` of a descriptor.
+template <class D, std::size_t I, class Part>
+struct SoftShares {
+  static constexpr SoftLayout layout = soft_layout<Part>;
+  static constexpr int count = 1 << layout.count;
+  static constexpr int numbers = Part::weight_cells > 0 ? Part::values + 1 : 0;  ///< of a mean's cell: votes, sums
+  simd::F32 weight[static_cast<std::size_t>(count)];
+  simd::F32 measured[static_cast<std::size_t>(numbers == 0 ? 1 : Part::values)];
+
+  /// The axis that bit `n` of a weight's place stands for; those within quads are the last ones.
+  static constexpr int axis_of(int n) noexcept { return (n + layout.within) % layout.count; }
+  template <int Axis>
+  [[nodiscard]] SHORTSHOT_INLINE static const Between& between(const SoftPoints<D>& points) noexcept {
+    return points.between[SoftPoints<D>::places.find(layout.axes[Axis].of_part(static_cast<int>(I)))];
+  }
+
+  /// Each axis parts all weights in two.
+  template <class Chunk>
+  SHORTSHOT_INLINE void share(const SoftPoints<D>& points, const Chunk& chunk, std::uint32_t i) noexcept {
+    weight[0] = points.unit;
+    unroll<layout.count>([&](auto n) {
+      constexpr int known = 1 << n;
+      const simd::F32 upper = between<axis_of(n)>(points).upper;
+      unroll<known>([&](auto k) {
+        weight[known + k] = weight[k] * upper;
+        weight[k] = weight[k] - weight[known + k];
+      });
+    });
+    if constexpr (numbers > 0) values_of(typename Part::Averaged{}, chunk, i, measured);
+  }
+  /// Votes in units: those of the cell, and for means times the value of signal `K` - 1.
+  template <int Cell, int K = 0>
+  [[nodiscard]] SHORTSHOT_INLINE simd::I32 votes() const noexcept {
+    if constexpr (K > 0) return truncate_to_int(weight[Cell] * measured[K - 1]);
+    return truncate_to_int(weight[Cell]);
+  }
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_KERNEL_SOFT_SHARES_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Votes of a point for part `I` of a descriptor: to `weights`, the sums of cells' votes, and to `values`.
+template <class D, std::size_t I, class Part>
+struct CellVotes : SoftShares<D, I, Part> {
+  using Shares = SoftShares<D, I, Part>;
+  using Shares::layout, Shares::numbers;
+  static constexpr int width = numbers > 0 ? Part::values : 1;  ///< values of what strides count
+
+  SHORTSHOT_INLINE void add(const SoftPoints<D>& points, float* weights, float* values) const noexcept {
+    std::int32_t first[2] = {0, 0};  // the place of the lowest cell; of the next one around, if there is such an axis
     unroll<layout.count>([&](auto i) {
       constexpr SoftAxis axis = layout.axes[i];
-      const Between at = between(coordinates[axis.row], axis);
-      first = first + simd::small_product(at.lower, simd::all_int(layout.strides[i]));
-      if constexpr (i < layout.within) {
-        simd::store(within[i], at.upper);
-      } else {
-        constexpr int known = 1 << (i - layout.within);
-        unroll<known>([&](auto k) {
-          weight[known + k] = weight[k] * at.upper;
-          weight[k] = weight[k] - weight[known + k];
+      std::int32_t lower = 0;
+      simd::store(&lower, Shares::template between<i>(points).lower);
+      first[0] += lower * (axis.stride / width);
+      if constexpr (axis.is_around()) first[1] = (lower + 1 == axis.cells ? 1 - axis.cells : 1) * (axis.stride / width);
+    });
+    first[1] += first[0];
+    float* const sums = (numbers > 0 ? weights : values);
+    unroll<Shares::count>([&](auto k) {
+      constexpr int offset = step(k);
+      const std::int32_t place = first[is_around(k) ? 1 : 0];
+      add_vote(sums + place + offset, this->template votes<k>());
+      if constexpr (numbers > 0) {
+        const std::int32_t cell = width * place;
+        unroll<numbers - 1>([&](auto number) {
+          constexpr int further = width * offset + number;
+          add_vote(values + cell + further, this->template votes<k, number + 1>());
         });
       }
     });
-    simd::store(quad, simd::shift_left(first, 4));
-    if constexpr (corners > 1) unroll<corners>([&](auto k) { simd::store(corner[k], weight[k]); });
   }
 
+ private:
+  static void add_vote(float* sum, simd::I32 votes) noexcept { detail::add_vote(sum, simd::all_int(0), votes); }
+  /// Is cell `k` the upper one around?
+  static constexpr bool is_around(int k) noexcept {
+    bool around = false;
+    for (int n = 0; n < layout.count; ++n)
+      around = around || (layout.axes[Shares::axis_of(n)].is_around() && k >> n & 1);
+    return around;
+  }
+  /// From the lowest cell to cell `k` but for the axis that goes around.
+  static constexpr int step(int k) noexcept {
+    int sum = 0;
+    for (int n = 0; n < layout.count; ++n) {
+      const SoftAxis axis = layout.axes[Shares::axis_of(n)];
+      if (!axis.is_around()) sum += (k >> n & 1) * (axis.stride / width);
+    }
+    return sum;
+  }
+};
+
+template <class D, std::size_t I, class Part, class Chunk>
+SHORTSHOT_INLINE void add_to_cells(const Chunk& chunk, std::uint32_t i, const SoftPoints<D>& points, float* weights,
+                                   float* values) noexcept {
+  CellVotes<D, I, Part> votes;
+  votes.share(points, chunk, i);
+  votes.add(points, weights + D::weight_offset(I), values + D::offset(I));
+}
+
+/// A part as small code sees it.
+struct SoftTable {
+  SoftAxis axes[4];      ///< `stride`: in cells of means, else in values
+  std::int16_t count;    ///< of axes
+  std::int16_t numbers;  ///< that a cell of means adds up besides its votes
+  std::int16_t first;    ///< of these, among a point's coordinates
+  std::int16_t weights, values;
+};
+
+/// The coordinates of a point: place, then histograms' signals, one for each part, then what means are of.
+template <class D>
+struct SoftTables {
+  SoftTable of[static_cast<std::size_t>(D::parts)];
+  int coordinates;
+  int most_cells;  ///< that a point votes for in one part
+
+  template <class Part>
+  constexpr void add(int part) noexcept {
+    constexpr SoftLayout layout = soft_layout<Part>;
+    constexpr bool means = Part::weight_cells > 0;
+    SoftTable& table = of[part];
+    for (int n = 0; n < layout.count; ++n) {
+      table.axes[n] = layout.axes[(n + layout.within) % layout.count].of_part(part);
+      if (means) table.axes[n].stride = static_cast<std::int16_t>(table.axes[n].stride / Part::values);
+    }
+    table.count = static_cast<std::int16_t>(layout.count);
+    table.numbers = means ? Part::values : 0;
+    most_cells = most_cells < 1 << layout.count ? 1 << layout.count : most_cells;
+    table.first = static_cast<std::int16_t>(coordinates);
+    coordinates += table.numbers;
+    table.weights = static_cast<std::int16_t>(D::weight_offset(part));
+    table.values = static_cast<std::int16_t>(D::offset(part));
+  }
+};
+
+template <class Voting, class... Parts>
+constexpr auto soft_tables(Descriptor<Voting, Parts...>) noexcept {
+  SoftTables<Descriptor<Voting, Parts...>> tables{};
+  tables.coordinates = 3 + static_cast<int>(sizeof...(Parts));
+  int part = 0;
+  (tables.template add<Parts>(part++), ...);
+  return tables;
+}
+template <class D>
+inline constexpr auto soft_tables_of = soft_tables(D{});
+
+template <class Part, class Chunk>
+inline void measure_for(const Chunk& chunk, std::uint32_t i, simd::F32& signal, simd::F32* numbers) noexcept {
+  if constexpr (Part::weight_cells > 0) {
+    values_of(typename Part::Averaged{}, chunk, i, numbers);
+  } else if constexpr (Part::has_histogram) {
+    using Signal = typename Part::Signal;
+    signal = soft_place<Signal>(simd::load(chunk.row(Chunk::template row_of<Signal>, i)));
+  }
+}
+
+/// The votes of a point for one part, to `MostCells` cells or fewer: SoftShares and CellVotes as loops.
+template <int MostCells>
+inline void add_by_table(const SoftTable& part, const simd::F32* coordinates, float one, float* weights,
+                         float* values) noexcept {
+  simd::F32 weight[static_cast<std::size_t>(MostCells)];
+  std::int16_t place[static_cast<std::size_t>(MostCells)];
+  int cells = 1;
+  weight[0] = simd::all(one);
+  place[0] = 0;
+  for (int n = 0; n < part.count; ++n, cells *= 2) {
+    const SoftAxis& axis = part.axes[n];
+    const Between at = between(coordinates[axis.row], axis);
+    std::int32_t lower = 0;
+    simd::store(&lower, at.lower);
+    const int upper = lower + 1 == axis.cells ? 0 : lower + 1;
+    for (int k = 0; k < cells; ++k) {
+      weight[cells + k] = weight[k] * at.upper;
+      weight[k] = weight[k] - weight[cells + k];
+      place[cells + k] = static_cast<std::int16_t>(place[k] + upper * axis.stride);
+      place[k] = static_cast<std::int16_t>(place[k] + lower * axis.stride);
+    }
+  }
+  float* const sums = part.numbers > 0 ? weights + part.weights : values + part.values;
+  for (int k = 0; k < cells; ++k) {
+    add_vote(sums, simd::all_int(place[k]), truncate_to_int(weight[k]));
+    for (int n = 0; n < part.numbers; ++n) {
+      add_vote(values + part.values + n, simd::all_int(place[k] * part.numbers),
+               truncate_to_int(weight[k] * coordinates[part.first + n]));
+    }
+  }
+}
+
+/// One chunk into the cells of all parts.
+template <class Voting, class... Parts, std::size_t... I, class Chunk>
+[[gnu::noinline]] inline void add_soft_points([[maybe_unused]] Descriptor<Voting, Parts...> descriptor,
+                                              std::index_sequence<I...>, const Chunk& chunk, float one, float* weights,
+                                              float* values) noexcept {
+  using D = Descriptor<Voting, Parts...>;
+  const std::uint32_t size = chunk.size;
+  for (std::uint32_t i = 0; i < size; ++i) {
+    if constexpr (small_code) {
+      constexpr const auto& tables = soft_tables_of<D>;
+      simd::F32 coordinates[static_cast<std::size_t>(tables.coordinates)];
+      for (int k = 0; k < 3; ++k) coordinates[k] = simd::load(chunk.row(k, i));
+      (measure_for<Parts>(chunk, i, coordinates[3 + I], coordinates + tables.of[I].first), ...);
+      for (const SoftTable& part : tables.of) add_by_table<tables.most_cells>(part, coordinates, one, weights, values);
+    } else {
+      SoftPoints<D> points;
+      points.unit = simd::all(one);
+      points.locate(descriptor, chunk, i);
+      (add_to_cells<D, I, Parts>(chunk, i, points, weights, values), ...);
+    }
+  }
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_KERNEL_SOFT_CELLS_HPP
+
+// shortshot/kernel/soft_votes.hpp: multilinear votes for parts of compact descriptors, a register of neighbors at a
+// time.
+//
+// The four cells between which a point lies on two axes (or the four numbers that a cell of means adds up) are kept
+// side by side, in a quad: one addition for four votes. Cells are so kept several times over, once for each quad they
+// belong to, and brought together at the end. And every lane has quads of its own: neighbors that follow each other lie
+// in the same cells, where each addition would wait for the one before.
+#ifndef SHORTSHOT_KERNEL_SOFT_VOTES_HPP
+#define SHORTSHOT_KERNEL_SOFT_VOTES_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+using simd::Quad;
+
+/// Votes of a register for part `I` of a descriptor, to the quads of all parts.
+template <class D, std::size_t I, class Part>
+struct SoftVotes : SoftShares<D, I, Part> {
+  using Shares = SoftShares<D, I, Part>;
+  using Shares::layout, Shares::numbers;
+  static constexpr int corners = layout.corners();
+
+  SHORTSHOT_INLINE void add(const SoftPoints<D>& points, Quad* sums) const noexcept {
+    constexpr int lanes = static_cast<int>(simd::lanes);
+    simd::I32 first = simd::all_int(0);  // in bytes
+    unroll<layout.count>([&](auto i) {
+      constexpr int bytes = layout.strides[i] * static_cast<int>(sizeof(Quad));
+      first = first + simd::small_product(Shares::template between<i>(points).lower, simd::all_int(bytes));
+    });
+    std::uint32_t place[simd::lanes];
+    simd::store(place, first);
+    unsigned char* quad[simd::lanes];
+    unroll<lanes>(
+        [&](auto lane) { quad[lane] = reinterpret_cast<unsigned char*>(sums + lane * quads_of<D>()) + place[lane]; });
+    unroll<corners * layout.of_cell>([&](auto n) {
+      constexpr int corner = n / layout.of_cell;
+      constexpr int q = n % layout.of_cell;
+      Quad quads[simd::lanes];
+      transpose(member<corner, 4 * q>(), member<corner, 4 * q + 1>(), member<corner, 4 * q + 2>(),
+                member<corner, 4 * q + 3>(), quads);
+      constexpr int offset = soft_quads(D{}, static_cast<int>(I)) + step(corner) + q;
+      unroll<lanes>([&](auto lane) { reinterpret_cast<Quad*>(quad[lane])[offset] += quads[lane]; });
+    });
+  }
+
+ private:
+  /// The votes of a corner for number `K` of a cell, or for cell `K` within a quad.
+  template <int Corner, int K>
+  [[nodiscard]] SHORTSHOT_INLINE simd::I32 member() const noexcept {
+    if constexpr (K < numbers) {
+      return this->template votes<Corner, K>();
+    } else if constexpr (numbers == 0 && K < 1 << layout.within) {
+      return this->template votes<Corner + K * corners>();
+    } else {
+      return simd::all_int(0);
+    }
+  }
   /// From a point's first quad to that of corner `k`.
   static constexpr int step(int k) noexcept {
     int quads = 0;
     for (int i = layout.within; i < layout.count; ++i) quads += (k >> (i - layout.within) & 1) * layout.strides[i];
     return quads;
   }
-  /// Adds a quad of shares to all corners of the point in a lane.
-  SHORTSHOT_INLINE void add(QuadSum* sums, std::size_t lane, const Quad& shares, float one) const noexcept {
-    auto* const first = reinterpret_cast<QuadSum*>(reinterpret_cast<unsigned char*>(sums) + quad[lane]);
-    unroll<corners>([&](auto k) {
-      const float weight = corners == 1 ? one : corner[k][lane];
-      first[step(k)] += __builtin_convertvector(shares * Quad{weight, weight, weight, weight}, QuadSum);
-    });
-  }
-  /// The shares of the four cells within a quad.
-  SHORTSHOT_INLINE Quad shares(std::size_t lane) const noexcept {
-    Quad result{1.0f, 0.0f, 1.0f, 0.0f};
-    if constexpr (layout.within > 0) {
-      const float p = within[0][lane];
-      result = result + negated(Quad{p, p, p, p}, QuadSum{sign_bit, 0, sign_bit, 0});
-    }
-    if constexpr (layout.within > 1) {
-      const float q = within[1][lane];
-      result = result * (Quad{1.0f, 1.0f, 0.0f, 0.0f} + negated(Quad{q, q, q, q}, QuadSum{sign_bit, sign_bit, 0, 0}));
-    }
-    return result;
-  }
 };
 
-/// The numbers of a mean's cell for a register's neighbors: 1, and the values of the signals.
-template <class Chunk, class... Signals, std::size_t Numbers>
-SHORTSHOT_INLINE void values_of(SignalList<Signals...>, const Chunk& chunk, std::uint32_t i,
-                                float (&values)[Numbers][simd::lanes]) noexcept {
-  std::size_t k = 0;
-  simd::store(values[0], simd::all(1.0f));
-  ((simd::store(values[++k], Signals::value(simd::load(chunk.row(Chunk::template row_of<Signals>, i))))), ...);
+template <class D, std::size_t I, class Part, class Chunk>
+SHORTSHOT_INLINE void add_to_quads(const Chunk& chunk, std::uint32_t i, const SoftPoints<D>& points,
+                                   Quad* sums) noexcept {
+  SoftVotes<D, I, Part> votes;
+  votes.share(points, chunk, i);
+  votes.add(points, sums);
 }
 
-/// The same of part `I` of a descriptor, and, for means, the numbers of a cell.
-template <std::size_t I, class Part>
-struct PartLanes : SoftLanes<Part> {
-  static constexpr int numbers = Part::weight_cells > 0 ? Part::values + 1 : 0;
-  float values[static_cast<std::size_t>(numbers + 1)][simd::lanes];
-
-  template <class Chunk>
-  SHORTSHOT_INLINE void set(const simd::F32 (&at)[3], const Chunk& chunk, std::uint32_t i, simd::F32 one) noexcept {
-    simd::F32 coordinates[4] = {at[0], at[1], at[2], at[0]};
-    if constexpr (numbers > 0) {
-      values_of(typename Part::Averaged{}, chunk, i, values);
-    } else if constexpr (Part::has_histogram) {
-      using Signal = typename Part::Signal;
-      coordinates[3] = place_in_histogram<Signal>(simd::load(chunk.row(Chunk::template row_of<Signal>, i)));
-    }
-    SoftLanes<Part>::set(coordinates, one);
-  }
-  SHORTSHOT_INLINE void add_lane(QuadSum* sums, std::size_t lane, float one) const noexcept {
-    if constexpr (numbers > 0) {
-      unroll<soft_layout<Part>.of_cell>([&](auto q) {
-        const auto number = [&](auto k) {
-          constexpr int place = 4 * decltype(q)::value + decltype(k)::value;
-          if constexpr (place < numbers) return values[place][lane];
-          return 0.0f;
-        };
-        using std::integral_constant;
-        this->add(sums + q, lane,
-                  Quad{number(integral_constant<int, 0>{}), number(integral_constant<int, 1>{}),
-                       number(integral_constant<int, 2>{}), number(integral_constant<int, 3>{})},
-                  one);
-      });
-    } else {
-      this->add(sums, lane, this->shares(lane), one);
-    }
-  }
-};
-
-template <class Places, class... Parts>
-struct AllLanes;
-template <std::size_t... I, class... Parts>
-struct AllLanes<std::index_sequence<I...>, Parts...> : PartLanes<I, Parts>... {};
-
-/// One chunk into the quads of all parts.
+/// One chunk into the quads of all parts. What is beyond its end becomes points that count for nothing.
 template <class Voting, class... Parts, std::size_t... I, class Chunk>
-[[gnu::noinline]] inline void add_soft_votes(Descriptor<Voting, Parts...>, std::index_sequence<I...> places,
-                                             const Chunk& chunk, float one, QuadSum* sums) noexcept {
+[[gnu::noinline]] inline void add_soft_votes(Descriptor<Voting, Parts...> descriptor, std::index_sequence<I...>,
+                                             Chunk& chunk, float one, Quad* sums) noexcept {
   using D = Descriptor<Voting, Parts...>;
-  AllLanes<decltype(places), Parts...> all;
-  for (std::uint32_t i = 0; i < chunk.size; i += simd::lanes) {
-    const std::size_t count = chunk.size - i < simd::lanes ? chunk.size - i : simd::lanes;
-    const simd::F32 at[3] = {simd::load(chunk.row(0, i)), simd::load(chunk.row(1, i)), simd::load(chunk.row(2, i))};
-    (static_cast<PartLanes<I, Parts>&>(all).set(at, chunk, i, simd::all(one)), ...);
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      (static_cast<const PartLanes<I, Parts>&>(all).add_lane(sums + soft_quads(D{}, static_cast<int>(I)), lane, one),
-       ...);
+  const std::uint32_t size = chunk.size;
+  for (std::uint32_t k = size; k % simd::lanes != 0; ++k) {
+    for (int row = 0; row < Chunk::rows_of_place + Chunk::signals; ++row) {
+      chunk.rows[k + static_cast<std::uint32_t>(row) * Chunk::room] = 0.0f;
     }
+  }
+  for (std::uint32_t i = 0; i < size; i += simd::lanes) {
+    SoftPoints<D> points;
+    points.unit = simd::all(one);
+    if (size - i < simd::lanes) points.unit = keep(simd::first(size - i), points.unit);
+    points.locate(descriptor, chunk, i);
+    (add_to_quads<D, I, Parts>(chunk, i, points, sums), ...);
   }
 }
 
 /// Adds a part's quads to its cells, axis by axis from the last one on. `place`: of the lower cells; `steps`: from
 /// there to the upper cells within a quad.
 template <class Part, int Axes>
-SHORTSHOT_INLINE void gather_quads(const QuadSum* sums, int place, const int (&steps)[2], float* weights,
+SHORTSHOT_INLINE void gather_quads(const Quad* sums, int place, const int (&steps)[2], float* weights,
                                    float* values) noexcept {
   constexpr SoftLayout layout = soft_layout<Part>;
   if constexpr (Axes > 0) {
     constexpr int i = Axes - 1;
     constexpr SoftAxis axis = layout.axes[i];
-    constexpr int size = i < layout.within ? axis.lowers() : axis.cells + (axis.around ? 1 : 0);
+    constexpr int size = i < layout.within ? axis.lowers() : axis.cells + (axis.is_around() ? 1 : 0);
     for (int k = 0; k < size; ++k, sums += layout.strides[i]) {
       const int upper = k + 1 == axis.cells ? 0 : k + 1;
       const int first = (k == axis.cells ? 0 : k) * axis.stride;
@@ -5887,7 +6210,7 @@ SHORTSHOT_INLINE void gather_quads(const QuadSum* sums, int place, const int (&s
     add_bits(weights + place / Part::values, sums[0][0]);
     unroll<Part::values>([&](auto k) { add_bits(values + place + k, sums[(k + 1) / 4][(k + 1) % 4]); });
   } else {
-    const QuadSum sum = *sums;
+    const Quad sum = *sums;
     add_bits(values + place, sum[0]);
     if constexpr (layout.within > 0) add_bits(values + place + steps[0], sum[1]);
     if constexpr (layout.within > 1) {
@@ -5898,25 +6221,24 @@ SHORTSHOT_INLINE void gather_quads(const QuadSum* sums, int place, const int (&s
 }
 
 template <class Voting, class... Parts, std::size_t... I>
-inline void gather_all_quads(Descriptor<Voting, Parts...>, std::index_sequence<I...>, const QuadSum* sums,
-                             float* weights, float* values) noexcept {
+inline void gather_all_quads(Descriptor<Voting, Parts...>, std::index_sequence<I...>, Quad* sums, float* weights,
+                             float* values) noexcept {
   using D = Descriptor<Voting, Parts...>;
+  for (int k = 0; k < quads_of<D>(); ++k) {
+    unroll<static_cast<int>(simd::lanes) - 1>([&](auto lane) { sums[k] += sums[(lane + 1) * quads_of<D>() + k]; });
+  }
   const int none[2] = {};
   (gather_quads<Parts, soft_layout<Parts>.count>(sums + soft_quads(D{}, static_cast<int>(I)), 0, none,
                                                  weights + D::weight_offset(I), values + D::offset(I)),
    ...);
 }
 
-template <class Voting, class... Parts>
-constexpr std::size_t soft_lanes_bytes(Descriptor<Voting, Parts...>) noexcept {
-  return sizeof(AllLanes<std::make_index_sequence<sizeof...(Parts)>, Parts...>);
-}
-
-/// Bytes of a chunk, of quads, and of a register's lanes.
+/// Bytes of a chunk, of sums of votes, and of quads.
 template <class D, std::uint32_t ChunkSize>
 constexpr std::size_t soft_scratch_bytes() noexcept {
-  return sizeof(Chunk<typename D::Signals, ChunkSize>) + sizeof(QuadSum) * static_cast<std::size_t>(quads_of<D>()) +
-         soft_lanes_bytes(D{});
+  constexpr auto quads = simd::lanes > 1 ? simd::lanes * static_cast<std::size_t>(quads_of<D>()) : 0;
+  return sizeof(Chunk<typename D::Signals, ChunkSize>) + sizeof(float) * static_cast<std::size_t>(D::weight_cells) +
+         sizeof(Quad) * quads;
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -5976,21 +6298,24 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
   const auto of_place = signals_of_place<Signals>(seen);
   float weights[static_cast<std::size_t>(D::weight_cells + 1)] = {};  // an array has one or more
   Chunk<Signals, ChunkSize> chunk;
-  [[maybe_unused]] QuadSum quads[static_cast<std::size_t>(quads_of<D>())];
-  if constexpr (is_soft<D>()) std::memset(quads, 0, sizeof quads);
+  constexpr bool has_quads = is_soft<D>() && simd::lanes > 1;
+  [[maybe_unused]] Quad quads[has_quads ? simd::lanes * static_cast<std::size_t>(quads_of<D>()) : 1];
+  if constexpr (has_quads) std::memset(quads, 0, sizeof quads);
   for (std::uint32_t i = 0; i * ChunkSize < n.size; ++i) {
     locate<typename D::Cells, (D::shell_borders > 1)>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
                                                       D::shell_borders, of_place, chunk);
     measure_all_by_index(Signals{}, seen, chunk);
-    if constexpr (is_soft<D>()) {
+    if constexpr (has_quads) {
       add_soft_votes(D{}, parts, chunk, static_cast<float>(unit.one), quads);
+    } else if constexpr (is_soft<D>()) {
+      add_soft_points(D{}, parts, chunk, static_cast<float>(unit.one), weights, out);
     } else if constexpr (D::is_plain) {
       accumulate_all(D{}, parts, chunk, unit, out);
     } else {
       accumulate_each(D{}, parts, chunk, unit, weights, out);
     }
   }
-  if constexpr (is_soft<D>()) gather_all_quads(D{}, parts, quads, weights, out);
+  if constexpr (has_quads) gather_all_quads(D{}, parts, quads, weights, out);
   return finish(D{}, parts, out, weights);
 }
 
@@ -6015,8 +6340,11 @@ inline constexpr std::uint32_t default_chunk_size = extend::simd::lanes == 1 ? 1
 /// Bytes of those arrays, and of the quads in which compact descriptors add up their votes.
 template <class D, std::uint32_t ChunkSize = default_chunk_size>
 inline constexpr std::size_t chunk_bytes = [] {
-  if constexpr (detail::is_soft<D>()) return detail::soft_scratch_bytes<D, ChunkSize>();
-  return detail::scratch_bytes<ChunkSize>(D{});
+  if constexpr (detail::is_soft<D>()) {
+    return detail::soft_scratch_bytes<D, ChunkSize>();
+  } else {
+    return detail::scratch_bytes<ChunkSize>(D{});
+  }
 }();
 
 /// Describe a gathered neighborhood in a frame: the kernel of every descriptor.
@@ -6154,20 +6482,20 @@ struct IsMadeOfCloud<Kind,
 
 /// The source of one kind at a key point: made of the cloud, or the first of the caller's own that stands for it. An
 /// array of the whole cloud's colors, converted before, stands for colors.
-template <class Kind>
-[[nodiscard]] inline auto source_at(const CloudView& cloud, const KeyPoint& key) noexcept {
+template <class Kind, class Key>
+[[nodiscard]] inline auto source_at(const CloudView& cloud, const Key& key) noexcept {
   static_assert(IsMadeOfCloud<Kind>::value,
                 "D has a signal whose source is not made of the cloud: it supports sources of yours as last arguments");
   return Kind::at(cloud, key);
 }
-template <class Kind, class First, class... Own>
-[[nodiscard]] inline auto source_at(const CloudView& cloud, const KeyPoint& key, const First& first,
+template <class Kind, class Key, class First, class... Own>
+[[nodiscard]] inline auto source_at(const CloudView& cloud, const Key& key, const First& first,
                                     const Own&... own) noexcept {
   if constexpr (StandsFor<Kind, First>::value) {
     return first;
   } else if constexpr (std::is_pointer<First>::value && channel_of<Kind> == Channel::colors) {
     using Color = std::remove_const_t<std::remove_pointer_t<First>>;
-    const Lab reference = to_lab<typename Kind::Rule>(key.color);
+    const Lab reference = reference_at<typename Kind::Rule>(key);
     return StoredColors<Color>{key.has_color ? first : nullptr, reference};
   } else {
     return source_at<Kind>(cloud, key, own...);
@@ -6175,8 +6503,8 @@ template <class Kind, class First, class... Own>
 }
 
 /// All sources of a descriptor at a key point.
-template <class... Kinds, class... Own>
-[[nodiscard]] inline auto sources_at(extend::SourceKinds<Kinds...>, const CloudView& cloud, const KeyPoint& key,
+template <class... Kinds, class Key, class... Own>
+[[nodiscard]] inline auto sources_at(extend::SourceKinds<Kinds...>, const CloudView& cloud, const Key& key,
                                      const Own&... own) noexcept {
   return sources(source_at<Kinds>(cloud, key, own...)...);
 }
@@ -6190,7 +6518,7 @@ template <class D, class Place>
     key.position = point(cloud, index);
     key.has_color = D::needs_colors;
     key.has_intensity = D::needs_intensities;
-    if constexpr (D::needs_colors) key.color = color(cloud, index);
+    if constexpr (D::needs_colors && !D::compares_with_mean) key.color = color(cloud, index);
     if constexpr (D::needs_intensities) key.intensity = intensity(cloud, index);
   } else {
     key = place;
@@ -6202,8 +6530,7 @@ template <class D, class Place>
 template <class D>
 [[nodiscard, gnu::always_inline]] inline decltype(auto) key_for(const KeyPoint& key) noexcept {
   if constexpr (D::compares_with_mean) {
-    KeyPoint seen = key;
-    seen.color = Rgb{};
+    KeyWithoutColor seen(key);
     seen.has_color = true;
     return seen;
   } else {
@@ -8254,6 +8581,8 @@ inline namespace SHORTSHOT_CODE {
 // allocates, starts threads.
 #ifndef SHORTSHOT_BATCH_ESTIMATE_NORMALS_HPP
 #define SHORTSHOT_BATCH_ESTIMATE_NORMALS_HPP
+
+#include <limits>
 
 // shortshot/batch/executor.hpp: who does extract()'s work: threads started for one call, or an executor of the
 // caller's. Hosted only.

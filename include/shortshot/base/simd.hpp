@@ -10,6 +10,15 @@
 #include "../config.hpp"
 #include "unfused.hpp"
 
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
+
+/// Four integers side by side in memory: one addition where there are lanes.
+using Quad = std::int32_t __attribute__((vector_size(16)));
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd
+
 #if defined(__AVX2__)
 #include "simd_avx2.hpp"
 #elif defined(__SSE2__)

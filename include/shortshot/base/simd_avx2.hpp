@@ -125,6 +125,20 @@ template <class Function>
   return {_mm256_xor_ps(a.v, _mm256_and_ps(sign.v, _mm256_set1_ps(-0.0f)))};
 }
 
+/// What each lane has in a, b, c and d.
+[[gnu::always_inline]] inline void transpose(I32 a, I32 b, I32 c, I32 d, Quad (&quads)[lanes]) noexcept {
+  const __m256i ab[2] = {_mm256_unpacklo_epi32(a.v, b.v), _mm256_unpackhi_epi32(a.v, b.v)};
+  const __m256i cd[2] = {_mm256_unpacklo_epi32(c.v, d.v), _mm256_unpackhi_epi32(c.v, d.v)};
+  const auto put = [&](std::size_t k, __m256i both) {  // lanes k and k + 4
+    quads[k] = reinterpret_cast<Quad>(_mm256_castsi256_si128(both));
+    quads[k + 4] = reinterpret_cast<Quad>(_mm256_extracti128_si256(both, 1));
+  };
+  for (std::size_t k = 0; k < 2; ++k) {
+    put(2 * k, _mm256_unpacklo_epi64(ab[k], cd[k]));
+    put(2 * k + 1, _mm256_unpackhi_epi64(ab[k], cd[k]));
+  }
+}
+
 /// The three floats at base + 3 * index[k], for all lanes.
 [[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
                                                 F32& c) noexcept {

@@ -116,6 +116,17 @@ template <class Function>
   return {vreinterpretq_f32_u32(veorq_u32(vreinterpretq_u32_f32(a.v), bit))};
 }
 
+/// What each lane has in a, b, c and d.
+[[gnu::always_inline]] inline void transpose(I32 a, I32 b, I32 c, I32 d, Quad (&quads)[lanes]) noexcept {
+  const int32x4x2_t ac = vzipq_s32(a.v, c.v);
+  const int32x4x2_t bd = vzipq_s32(b.v, d.v);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const int32x4x2_t both = vzipq_s32(ac.val[k], bd.val[k]);
+    quads[2 * k] = reinterpret_cast<Quad>(both.val[0]);
+    quads[2 * k + 1] = reinterpret_cast<Quad>(both.val[1]);
+  }
+}
+
 /// The three floats at base + 3 * index[k], for all lanes.
 [[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
                                                 F32& c) noexcept {

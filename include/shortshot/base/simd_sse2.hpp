@@ -125,6 +125,16 @@ template <class Function>
   return {_mm_xor_ps(a.v, _mm_and_ps(sign.v, _mm_set1_ps(-0.0f)))};
 }
 
+/// What each lane has in a, b, c and d.
+[[gnu::always_inline]] inline void transpose(I32 a, I32 b, I32 c, I32 d, Quad (&quads)[lanes]) noexcept {
+  const __m128i ab[2] = {_mm_unpacklo_epi32(a.v, b.v), _mm_unpackhi_epi32(a.v, b.v)};
+  const __m128i cd[2] = {_mm_unpacklo_epi32(c.v, d.v), _mm_unpackhi_epi32(c.v, d.v)};
+  for (std::size_t k = 0; k < 2; ++k) {
+    quads[2 * k] = reinterpret_cast<Quad>(_mm_unpacklo_epi64(ab[k], cd[k]));
+    quads[2 * k + 1] = reinterpret_cast<Quad>(_mm_unpackhi_epi64(ab[k], cd[k]));
+  }
+}
+
 /// The three floats at base + 3 * index[k], for all lanes.
 [[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
                                                 F32& c) noexcept {

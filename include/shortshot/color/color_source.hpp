@@ -28,6 +28,19 @@ constexpr bool has_rule(...) noexcept {
   return true;
 }
 
+/// A key point where colors are compared with their mean: nobody asks for its own, which may be missing.
+struct KeyWithoutColor : KeyPoint {
+  explicit KeyWithoutColor(const KeyPoint& key) noexcept : KeyPoint(key) {}
+};
+template <class Rule>
+[[nodiscard]] inline Lab reference_at(const KeyPoint& key) noexcept {
+  return to_lab<Rule>(key.color);
+}
+template <class Rule>
+[[nodiscard]] inline Lab reference_at(const KeyWithoutColor&) noexcept {
+  return {0.0f, 0.0f, 0.0f};
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 
@@ -45,6 +58,7 @@ struct RgbColors {
   RgbColors(const CloudView& cloud, const Rgb& color) noexcept : bytes(cloud.colors) {
     detail::put_lab<LabRule>(color, reference);
   }
+  explicit RgbColors(const CloudView& cloud) noexcept : bytes(cloud.colors), reference{0.0f, 0.0f, 0.0f} {}
   [[nodiscard]] Status status() const noexcept { return bytes.r != nullptr ? Status::ok : Status::missing_colors; }
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept {
     return to_lab<LabRule>(extend::read(bytes, index));
@@ -54,6 +68,9 @@ struct RgbColors {
     RgbColors colors(cloud, key.color);
     if (!key.has_color) colors.bytes.r = nullptr;
     return colors;
+  }
+  [[nodiscard]] static RgbColors at(const CloudView& cloud, const detail::KeyWithoutColor&) noexcept {
+    return RgbColors(cloud);
   }
   /// May a source stand in for this one? StoredColors and whatever else gives a Lab by index may; if it says by which
   /// rule its colors were converted, it must be this one.

@@ -12,6 +12,15 @@ inline namespace SHORTSHOT_CODE {
 [[nodiscard]] inline float positive(float value) noexcept { return value > 0.0f ? value : 0.0f; }
 [[nodiscard]] inline float magnitude(float value) noexcept { return value < 0.0f ? -value : value; }
 
+/// `values` holds sums of votes, which some rules make negative here and there: these count as 0.
+inline void roots_of_shares(float* values, int size, float length) noexcept {
+  float sum = 0.0f;
+  for (int i = 0; i < size; ++i) sum += positive(values[i]);
+  if (!(sum > 0.0f)) return;
+  const float weight = length / root(sum);
+  for (int i = 0; i < size; ++i) values[i] = weight * root(positive(values[i]));
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 
@@ -31,13 +40,8 @@ struct RootOfShares {
   static constexpr const char* name = "root of shares";
   static constexpr int per_mille = PerMille;
 
-  /// `values` holds sums of votes, which some rules make negative here and there: these count as 0.
   static void apply(float* values, int size) noexcept {
-    float sum = 0.0f;
-    for (int i = 0; i < size; ++i) sum += detail::positive(values[i]);
-    if (!(sum > 0.0f)) return;
-    const float weight = static_cast<float>(PerMille) / 1000.0f / detail::root(sum);
-    for (int i = 0; i < size; ++i) values[i] = weight * detail::root(detail::positive(values[i]));
+    detail::roots_of_shares(values, size, static_cast<float>(PerMille) / 1000.0f);
   }
 };
 

@@ -26,6 +26,7 @@
 #include "accumulate_means.hpp"
 #include "finish.hpp"
 #include "mean_color.hpp"
+#include "soft_cells.hpp"
 #include "soft_votes.hpp"
 #include "to_spherical.hpp"
 
@@ -82,21 +83,24 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
   const auto of_place = signals_of_place<Signals>(seen);
   float weights[static_cast<std::size_t>(D::weight_cells + 1)] = {};  // an array has one or more
   Chunk<Signals, ChunkSize> chunk;
-  [[maybe_unused]] QuadSum quads[static_cast<std::size_t>(quads_of<D>())];
-  if constexpr (is_soft<D>()) std::memset(quads, 0, sizeof quads);
+  constexpr bool has_quads = is_soft<D>() && simd::lanes > 1;
+  [[maybe_unused]] Quad quads[has_quads ? simd::lanes * static_cast<std::size_t>(quads_of<D>()) : 1];
+  if constexpr (has_quads) std::memset(quads, 0, sizeof quads);
   for (std::uint32_t i = 0; i * ChunkSize < n.size; ++i) {
     locate<typename D::Cells, (D::shell_borders > 1)>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
                                                       D::shell_borders, of_place, chunk);
     measure_all_by_index(Signals{}, seen, chunk);
-    if constexpr (is_soft<D>()) {
+    if constexpr (has_quads) {
       add_soft_votes(D{}, parts, chunk, static_cast<float>(unit.one), quads);
+    } else if constexpr (is_soft<D>()) {
+      add_soft_points(D{}, parts, chunk, static_cast<float>(unit.one), weights, out);
     } else if constexpr (D::is_plain) {
       accumulate_all(D{}, parts, chunk, unit, out);
     } else {
       accumulate_each(D{}, parts, chunk, unit, weights, out);
     }
   }
-  if constexpr (is_soft<D>()) gather_all_quads(D{}, parts, quads, weights, out);
+  if constexpr (has_quads) gather_all_quads(D{}, parts, quads, weights, out);
   return finish(D{}, parts, out, weights);
 }
 
@@ -121,8 +125,11 @@ inline constexpr std::uint32_t default_chunk_size = extend::simd::lanes == 1 ? 1
 /// Bytes of those arrays, and of the quads in which compact descriptors add up their votes.
 template <class D, std::uint32_t ChunkSize = default_chunk_size>
 inline constexpr std::size_t chunk_bytes = [] {
-  if constexpr (detail::is_soft<D>()) return detail::soft_scratch_bytes<D, ChunkSize>();
-  return detail::scratch_bytes<ChunkSize>(D{});
+  if constexpr (detail::is_soft<D>()) {
+    return detail::soft_scratch_bytes<D, ChunkSize>();
+  } else {
+    return detail::scratch_bytes<ChunkSize>(D{});
+  }
 }();
 
 /// Describe a gathered neighborhood in a frame: the kernel of every descriptor.

@@ -78,20 +78,20 @@ struct IsMadeOfCloud<Kind,
 
 /// The source of one kind at a key point: made of the cloud, or the first of the caller's own that stands for it. An
 /// array of the whole cloud's colors, converted before, stands for colors.
-template <class Kind>
-[[nodiscard]] inline auto source_at(const CloudView& cloud, const KeyPoint& key) noexcept {
+template <class Kind, class Key>
+[[nodiscard]] inline auto source_at(const CloudView& cloud, const Key& key) noexcept {
   static_assert(IsMadeOfCloud<Kind>::value,
                 "D has a signal whose source is not made of the cloud: it supports sources of yours as last arguments");
   return Kind::at(cloud, key);
 }
-template <class Kind, class First, class... Own>
-[[nodiscard]] inline auto source_at(const CloudView& cloud, const KeyPoint& key, const First& first,
+template <class Kind, class Key, class First, class... Own>
+[[nodiscard]] inline auto source_at(const CloudView& cloud, const Key& key, const First& first,
                                     const Own&... own) noexcept {
   if constexpr (StandsFor<Kind, First>::value) {
     return first;
   } else if constexpr (std::is_pointer<First>::value && channel_of<Kind> == Channel::colors) {
     using Color = std::remove_const_t<std::remove_pointer_t<First>>;
-    const Lab reference = to_lab<typename Kind::Rule>(key.color);
+    const Lab reference = reference_at<typename Kind::Rule>(key);
     return StoredColors<Color>{key.has_color ? first : nullptr, reference};
   } else {
     return source_at<Kind>(cloud, key, own...);
@@ -99,8 +99,8 @@ template <class Kind, class First, class... Own>
 }
 
 /// All sources of a descriptor at a key point.
-template <class... Kinds, class... Own>
-[[nodiscard]] inline auto sources_at(extend::SourceKinds<Kinds...>, const CloudView& cloud, const KeyPoint& key,
+template <class... Kinds, class Key, class... Own>
+[[nodiscard]] inline auto sources_at(extend::SourceKinds<Kinds...>, const CloudView& cloud, const Key& key,
                                      const Own&... own) noexcept {
   return sources(source_at<Kinds>(cloud, key, own...)...);
 }
@@ -114,7 +114,7 @@ template <class D, class Place>
     key.position = point(cloud, index);
     key.has_color = D::needs_colors;
     key.has_intensity = D::needs_intensities;
-    if constexpr (D::needs_colors) key.color = color(cloud, index);
+    if constexpr (D::needs_colors && !D::compares_with_mean) key.color = color(cloud, index);
     if constexpr (D::needs_intensities) key.intensity = intensity(cloud, index);
   } else {
     key = place;
@@ -126,8 +126,7 @@ template <class D, class Place>
 template <class D>
 [[nodiscard, gnu::always_inline]] inline decltype(auto) key_for(const KeyPoint& key) noexcept {
   if constexpr (D::compares_with_mean) {
-    KeyPoint seen = key;
-    seen.color = Rgb{};
+    KeyWithoutColor seen(key);
     seen.has_color = true;
     return seen;
   } else {

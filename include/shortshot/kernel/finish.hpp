@@ -62,14 +62,10 @@ template <bool AreIntegers>
   return Status::ok;
 }
 
-/// One part's integers to its values: means by their cells' votes, then as its rule says.
+/// One part's sums to its values: means by their cells' votes, then as its rule says.
 template <class Part>
-inline void finish_part(float* values, float* weights) noexcept {
-  to_floats(values, Part::size);
-  if constexpr (Part::weight_cells > 0) {
-    to_floats(weights, Part::weight_cells);
-    divide_by_votes<Part>(values, weights);
-  }
+inline void finish_part(float* values, [[maybe_unused]] float* weights) noexcept {
+  if constexpr (Part::weight_cells > 0) divide_by_votes<Part>(values, weights);
   if constexpr (!std::is_same<typename Part::Finish, PlainSums>::value) Part::Finish::apply(values, Part::size);
 }
 
@@ -81,6 +77,8 @@ template <class Voting, class... Parts, std::size_t... I>
   if constexpr (D::is_plain) {
     return normalize<true>(values, D::size);
   } else {
+    to_floats(values, D::size);
+    to_floats(weights, D::weight_cells);
     (finish_part<Parts>(values + D::offset(I), weights + D::weight_offset(I)), ...);
     return normalize<false>(values, D::size);
   }

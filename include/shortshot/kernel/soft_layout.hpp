@@ -2,8 +2,11 @@
 // known while compiling.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <type_traits>
 
+#include "../base/simd.hpp"
 #include "../config.hpp"
 #include "../descriptor/conventions.hpp"
 #include "../descriptor/descriptor.hpp"
@@ -14,10 +17,15 @@ inline namespace SHORTSHOT_CODE {
 
 /// An axis with more than one cell. `row`: the coordinate, 3 for the signal. `stride`: in the descriptor, of its cells.
 struct SoftAxis {
-  int row, cells, stride;
-  bool around;
-  /// Places of the lower cell. Around the end, the upper cell of the last one is the first.
-  [[nodiscard]] constexpr int lowers() const noexcept { return around ? cells : cells - 1; }
+  std::int16_t row, cells, stride;
+  /// The azimuth's: the upper cell of the last one is the first.
+  [[nodiscard]] constexpr bool is_around() const noexcept { return row == 2; }
+  /// Places of the lower cell.
+  [[nodiscard]] constexpr int lowers() const noexcept { return is_around() ? cells : cells - 1; }
+  /// The same where parts' signals are told apart.
+  [[nodiscard]] constexpr SoftAxis of_part(int part) const noexcept {
+    return {static_cast<std::int16_t>(row < 3 ? row : 3 + part), cells, stride};
+  }
 };
 
 /// Where a part's quads are. The first two axes are within a quad (none, where quads are a cell's numbers); cells of
@@ -30,15 +38,17 @@ struct SoftLayout {
   int strides[4];  ///< in quads
   int quads;
 
-  constexpr void add(SoftAxis axis) noexcept {
-    if (axis.cells > 1) axes[count++] = axis;
+  constexpr void add(int row, int axis_cells, int stride) noexcept {
+    if (axis_cells == 1) return;
+    axes[count++] = {static_cast<std::int16_t>(row), static_cast<std::int16_t>(axis_cells),
+                     static_cast<std::int16_t>(stride)};
   }
   constexpr void lay_out(int axes_within) noexcept {
     within = count < axes_within ? count : axes_within;
     quads = of_cell;
     for (int i = 0; i < count; ++i) {
       strides[i] = quads;
-      quads *= i < within ? axes[i].lowers() : axes[i].cells + (axes[i].around ? 1 : 0);
+      quads *= i < within ? axes[i].lowers() : axes[i].cells + (axes[i].is_around() ? 1 : 0);
     }
   }
   [[nodiscard]] constexpr int corners() const noexcept { return 1 << (count - within); }
@@ -50,13 +60,40 @@ inline constexpr SoftLayout soft_layout = [] {
   constexpr bool means = Part::weight_cells > 0;
   constexpr extend::CellStrides cells = Part::Cells::template strides<typename Part::Grid>;
   layout.of_cell = means ? (Part::values + 4) / 4 : 1;
-  if (!means) layout.add({3, Part::values, 1, false});
-  layout.add({0, Part::Grid::radial, Part::values * cells.radial, false});
-  layout.add({1, Part::Grid::elevation, Part::values * cells.elevation, false});
-  layout.add({2, Part::Grid::azimuth, Part::values * cells.azimuth, true});
+  if (!means) layout.add(3, Part::values, 1);
+  layout.add(0, Part::Grid::radial, Part::values * cells.radial);
+  layout.add(1, Part::Grid::elevation, Part::values * cells.elevation);
+  layout.add(2, Part::Grid::azimuth, Part::values * cells.azimuth);
   layout.lay_out(means ? 0 : 2);
   return layout;
 }();
+
+/// The axes of all parts, those with the same cells of the same coordinate once: a point's place on each is found once.
+template <int Parts>
+struct SoftPlaces {
+  SoftAxis axes[static_cast<std::size_t>(4 * Parts)];
+  int count;
+
+  [[nodiscard]] constexpr int find(const SoftAxis& axis) const noexcept {
+    int k = 0;
+    while (k < count && (axes[k].row != axis.row || axes[k].cells != axis.cells)) ++k;
+    return k;
+  }
+  constexpr void add(const SoftLayout& layout, int part) noexcept {
+    for (int i = 0; i < layout.count; ++i) {
+      const SoftAxis axis = layout.axes[i].of_part(part);
+      if (find(axis) == count) axes[count++] = axis;
+    }
+  }
+};
+
+template <class Voting, class... Parts>
+constexpr SoftPlaces<sizeof...(Parts)> soft_places(Descriptor<Voting, Parts...>) noexcept {
+  SoftPlaces<sizeof...(Parts)> places{};
+  int part = 0;
+  (places.add(soft_layout<Parts>, part++), ...);
+  return places;
+}
 
 /// All quads of a descriptor's parts before part `part`.
 template <class Voting, class... Parts>
@@ -67,14 +104,19 @@ constexpr int soft_quads(Descriptor<Voting, Parts...>, int part) noexcept {
   return sum;
 }
 
-/// Most quads on the stack: 8 KB.
-inline constexpr int most_quads = 512;
+/// Most quads: with those of every lane 16 KB of stack.
+inline constexpr int most_quads = 1024 / static_cast<int>(simd::lanes);
+
+template <class Voting, class... Parts>
+constexpr bool has_linear_radii(Descriptor<Voting, Parts...>) noexcept {
+  return (Parts::Scale::is_linear && ...);
+}
 
 /// Are a descriptor's votes added up in quads? Those of compact ones, if there are not too many.
 template <class D>
 constexpr bool is_soft() noexcept {
   constexpr bool is_compact = std::is_same<typename D::Voting, MultilinearVoting>::value && !D::is_plain &&
-                              std::is_same<typename D::Cells, HeightCells>::value;
+                              std::is_same<typename D::Cells, HeightCells>::value && has_linear_radii(D{});
   if constexpr (is_compact) return soft_quads(D{}, D::parts) <= most_quads;
   return false;
 }
