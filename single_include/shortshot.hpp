@@ -357,6 +357,7 @@ template <class Function>
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GE_OQ)}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_NEQ_UQ)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm256_and_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm256_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm256_sqrt_ps(a.v)}; }
 [[nodiscard]] inline F32 abs(F32 a) noexcept {
@@ -560,6 +561,7 @@ template <class Function>
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {_mm_cmpge_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {_mm_cmpneq_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {_mm_and_ps(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {_mm_or_ps(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {_mm_sqrt_ps(a.v)}; }
 [[nodiscard]] inline F32 abs(F32 a) noexcept { return {_mm_and_ps(a.v, _mm_castsi128_ps(_mm_set1_epi32(0x7FFFFFFF)))}; }
@@ -744,6 +746,7 @@ template <class Function>
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {vcgeq_f32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {vmvnq_u32(vceqq_f32(a.v, b.v))}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {vandq_u32(a.v, b.v)}; }
+[[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {vorrq_u32(a.v, b.v)}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {vsqrtq_f32(a.v)}; }
 [[nodiscard]] inline F32 abs(F32 a) noexcept { return {vabsq_f32(a.v)}; }
@@ -941,6 +944,7 @@ template <class Function>
 [[nodiscard]] inline Mask operator>=(F32 a, F32 b) noexcept { return {a.v >= b.v}; }
 [[nodiscard]] inline Mask operator!=(F32 a, F32 b) noexcept { return {a.v != b.v}; }
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
+[[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
 
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {sqrt(a.v)}; }
 [[nodiscard]] inline F32 abs(F32 a) noexcept { return {__builtin_fabsf(a.v)}; }
@@ -9918,6 +9922,409 @@ template <class D>
 #ifndef SHORTSHOT_RECOGNITION_MATCH_HPP
 #define SHORTSHOT_RECOGNITION_MATCH_HPP
 
+// shortshot/recognition/compare_packed.hpp: which pairs of packed rows are near each other, for match.hpp. Hosted only:
+// allocates, starts threads.
+//
+// The distances of a row of the database from a panel of queries are summed up at the same time, a chunk of codes after
+// the other, exactly. After each chunk the sum is as far as they are apart at least: where no query of the panel can
+// be nearer than the best so far, the other chunks are left out. Of rows of a scene four out of five are.
+#ifndef SHORTSHOT_RECOGNITION_COMPARE_PACKED_HPP
+#define SHORTSHOT_RECOGNITION_COMPARE_PACKED_HPP
+
+// shortshot/base/simd_sums.hpp: how far packed rows are from each other, for many of them at once: lanes are rows of a
+// panel, which all meet the same row of the database. For hosts; the compiler's own macros choose, as in simd.hpp.
+//
+// There are three kinds of sums, each a struct of the same form:
+//
+//     SmallCodes   products of numbers from 0 to 15, two at a time (a step); for up to 64 of them
+//     LargeCodes   products of numbers from 0 to 255, two at a time; modulo 2^32, hence for any number of them
+//     HalfBytes    bits in which half bytes differ, one half byte at a time; for up to 62 of them
+//
+//     Code         an element of the database's rows: a number, or a half byte times 16
+//     Cell         an element of a panel
+//     rows         of a panel, that one `Sums` has sums of
+//     step_codes   codes of a row, and
+//     step_cells   cells of a panel, in one step
+//     pack()       one step of as many rows of codes as a panel
+//     none()       no step
+//     add()        one step more, of a panel and a row
+//     Limit        a number of the size of a sum
+//     any_near()   is any product above, or number of bits below, what a row of the panel and the other row say? That
+//                  is limits + of_row for products, limits - of_row for bits, or as near to it as a Limit can be; sums
+//                  must be less than the largest Limit
+//     widen()      as 32-bit integers, in the order of the rows, in rows / lanes registers
+#ifndef SHORTSHOT_BASE_SIMD_SUMS_HPP
+#define SHORTSHOT_BASE_SIMD_SUMS_HPP
+
+// shortshot/base/half_bytes.hpp: how many bits half a byte differs in from another.
+#ifndef SHORTSHOT_BASE_HALF_BYTES_HPP
+#define SHORTSHOT_BASE_HALF_BYTES_HPP
+
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
+
+/// For every two of them. (Registers are loaded from it.)
+struct HalfByteDistances {
+  alignas(16) std::uint8_t of[16][16];
+  constexpr HalfByteDistances() noexcept : of{} {
+    for (unsigned a = 0; a < 16; ++a) {
+      for (unsigned b = 0; b < 16; ++b) {
+        for (unsigned differ = a ^ b; differ != 0; differ &= differ - 1) ++of[a][b];
+      }
+    }
+  }
+};
+inline constexpr HalfByteDistances half_byte_distances{};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd
+#endif  // SHORTSHOT_BASE_HALF_BYTES_HPP
+
+#if defined(__AVX2__)
+
+// shortshot/base/simd_sums_avx2.hpp: sums over packed rows on AVX2. Included by simd_sums.hpp, which says what it must
+// do.
+#ifndef SHORTSHOT_BASE_SIMD_SUMS_AVX2_HPP
+#define SHORTSHOT_BASE_SIMD_SUMS_AVX2_HPP
+
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
+
+struct SmallCodes {
+  using Code = std::uint8_t;
+  using Limit = std::int16_t;
+  using Cell = std::uint8_t;
+  static constexpr std::size_t rows = 16, step_codes = 2, step_cells = 32;
+  struct Sums {
+    __m256i v;  // 16 bits each
+  };
+
+  static void pack(const Code* const* of_rows, Cell* to) noexcept {
+    for (std::size_t k = 0; k < rows; ++k) std::memcpy(to + 2 * k, of_rows[k], 2);
+  }
+  [[nodiscard]] static Sums none() noexcept { return {_mm256_setzero_si256()}; }
+  [[nodiscard, gnu::always_inline]] static Sums add(Sums sums, const Cell* panel, const Code* codes) noexcept {
+    std::int16_t pair;
+    std::memcpy(&pair, codes, sizeof pair);
+    const __m256i cells = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(panel));
+    return {_mm256_add_epi16(sums.v, _mm256_maddubs_epi16(cells, _mm256_set1_epi16(pair)))};
+  }
+  [[nodiscard, gnu::always_inline]] static bool any_near(Sums sums, const Limit* limits, Limit of_row) noexcept {
+    const __m256i of_rows = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(limits));
+    const __m256i above = _mm256_cmpgt_epi16(sums.v, _mm256_adds_epi16(of_rows, _mm256_set1_epi16(of_row)));
+    return _mm256_movemask_epi8(above) != 0;
+  }
+  static void widen(Sums sums, I32* to) noexcept {
+    to[0] = {_mm256_cvtepi16_epi32(_mm256_castsi256_si128(sums.v))};
+    to[1] = {_mm256_cvtepi16_epi32(_mm256_extracti128_si256(sums.v, 1))};
+  }
+};
+
+struct LargeCodes {
+  using Code = std::uint16_t;
+  using Limit = std::int32_t;
+  using Cell = std::uint16_t;
+  static constexpr std::size_t rows = 8, step_codes = 2, step_cells = 16;
+  struct Sums {
+    __m256i v;
+  };
+
+  static void pack(const Code* const* of_rows, Cell* to) noexcept {
+    for (std::size_t k = 0; k < rows; ++k) std::memcpy(to + 2 * k, of_rows[k], 4);
+  }
+  [[nodiscard]] static Sums none() noexcept { return {_mm256_setzero_si256()}; }
+  [[nodiscard, gnu::always_inline]] static Sums add(Sums sums, const Cell* panel, const Code* codes) noexcept {
+    std::int32_t pair;
+    std::memcpy(&pair, codes, sizeof pair);
+    const __m256i cells = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(panel));
+    return {_mm256_add_epi32(sums.v, _mm256_madd_epi16(cells, _mm256_set1_epi32(pair)))};
+  }
+  [[nodiscard, gnu::always_inline]] static bool any_near(Sums sums, const Limit* limits, Limit of_row) noexcept {
+    const __m256i of_rows = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(limits));
+    const __m256i above = _mm256_cmpgt_epi32(sums.v, _mm256_add_epi32(of_rows, _mm256_set1_epi32(of_row)));
+    return _mm256_movemask_epi8(above) != 0;
+  }
+  static void widen(Sums sums, I32* to) noexcept { to[0] = {sums.v}; }
+};
+
+struct HalfBytes {
+  using Code = std::uint8_t;
+  using Limit = std::uint8_t;
+  using Cell = std::uint8_t;
+  static constexpr std::size_t rows = 32, step_codes = 1, step_cells = 32;
+  struct Sums {
+    __m256i v;  // 8 bits each
+  };
+
+  static void pack(const Code* const* of_rows, Cell* to) noexcept {
+    for (std::size_t k = 0; k < rows; ++k) to[k] = static_cast<Cell>(*of_rows[k] >> 4);
+  }
+  [[nodiscard]] static Sums none() noexcept { return {_mm256_setzero_si256()}; }
+  [[nodiscard, gnu::always_inline]] static Sums add(Sums sums, const Cell* panel, const Code* codes) noexcept {
+    const std::uint8_t* const distances = &half_byte_distances.of[0][0] + *codes;  // from the row's half byte
+    const __m128i table = _mm_load_si128(reinterpret_cast<const __m128i*>(distances));
+    const __m256i cells = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(panel));
+    return {_mm256_add_epi8(sums.v, _mm256_shuffle_epi8(_mm256_broadcastsi128_si256(table), cells))};
+  }
+  [[nodiscard, gnu::always_inline]] static bool any_near(Sums sums, const Limit* limits, Limit of_row) noexcept {
+    const __m256i of_rows = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(limits));
+    const __m256i all_limits = _mm256_subs_epu8(of_rows, _mm256_set1_epi8(static_cast<char>(of_row)));
+    return _mm256_movemask_epi8(_mm256_cmpeq_epi8(_mm256_max_epu8(sums.v, all_limits), sums.v)) != -1;
+  }
+  static void widen(Sums sums, I32* to) noexcept {
+    const __m128i low = _mm256_castsi256_si128(sums.v);
+    const __m128i high = _mm256_extracti128_si256(sums.v, 1);
+    to[0] = {_mm256_cvtepu8_epi32(low)};
+    to[1] = {_mm256_cvtepu8_epi32(_mm_srli_si128(low, 8))};
+    to[2] = {_mm256_cvtepu8_epi32(high)};
+    to[3] = {_mm256_cvtepu8_epi32(_mm_srli_si128(high, 8))};
+  }
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd
+#endif  // SHORTSHOT_BASE_SIMD_SUMS_AVX2_HPP
+#elif defined(__SSE2__)
+
+// shortshot/base/simd_sums_sse2.hpp: sums over packed rows on SSE2. Included by simd_sums.hpp, which says what it must
+// do.
+#ifndef SHORTSHOT_BASE_SIMD_SUMS_SSE2_HPP
+#define SHORTSHOT_BASE_SIMD_SUMS_SSE2_HPP
+
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
+
+struct LargeCodes {
+  using Code = std::uint16_t;
+  using Limit = std::int32_t;
+  using Cell = std::uint16_t;
+  static constexpr std::size_t rows = 4, step_codes = 2, step_cells = 8;
+  struct Sums {
+    __m128i v;
+  };
+
+  static void pack(const Code* const* of_rows, Cell* to) noexcept {
+    for (std::size_t k = 0; k < rows; ++k) std::memcpy(to + 2 * k, of_rows[k], 4);
+  }
+  [[nodiscard]] static Sums none() noexcept { return {_mm_setzero_si128()}; }
+  [[nodiscard, gnu::always_inline]] static Sums add(Sums sums, const Cell* panel, const Code* codes) noexcept {
+    std::int32_t pair;
+    std::memcpy(&pair, codes, sizeof pair);
+    const __m128i cells = _mm_loadu_si128(reinterpret_cast<const __m128i*>(panel));
+    return {_mm_add_epi32(sums.v, _mm_madd_epi16(cells, _mm_set1_epi32(pair)))};
+  }
+  [[nodiscard, gnu::always_inline]] static bool any_near(Sums sums, const Limit* limits, Limit of_row) noexcept {
+    const __m128i of_rows = _mm_loadu_si128(reinterpret_cast<const __m128i*>(limits));
+    const __m128i above = _mm_cmpgt_epi32(sums.v, _mm_add_epi32(of_rows, _mm_set1_epi32(of_row)));
+    return _mm_movemask_epi8(above) != 0;
+  }
+  static void widen(Sums sums, I32* to) noexcept { to[0] = {sums.v}; }
+};
+
+using SmallCodes = LargeCodes;  // products of bytes came with SSSE3
+
+/// Nor are there tables in registers: a panel has the distances from each of the 16 half bytes.
+struct HalfBytes {
+  using Code = std::uint8_t;
+  using Limit = std::uint8_t;
+  using Cell = std::uint8_t;
+  static constexpr std::size_t rows = 16, step_codes = 1, step_cells = 256;
+  struct Sums {
+    __m128i v;  // 8 bits each
+  };
+
+  static void pack(const Code* const* of_rows, Cell* to) noexcept {
+    for (std::size_t half = 0; half < 16; ++half) {
+      for (std::size_t k = 0; k < rows; ++k) to[rows * half + k] = half_byte_distances.of[half][*of_rows[k] >> 4];
+    }
+  }
+  [[nodiscard]] static Sums none() noexcept { return {_mm_setzero_si128()}; }
+  [[nodiscard, gnu::always_inline]] static Sums add(Sums sums, const Cell* panel, const Code* codes) noexcept {
+    const __m128i distances = _mm_loadu_si128(reinterpret_cast<const __m128i*>(panel + *codes));
+    return {_mm_add_epi8(sums.v, distances)};
+  }
+  [[nodiscard, gnu::always_inline]] static bool any_near(Sums sums, const Limit* limits, Limit of_row) noexcept {
+    const __m128i of_rows = _mm_loadu_si128(reinterpret_cast<const __m128i*>(limits));
+    const __m128i all_limits = _mm_subs_epu8(of_rows, _mm_set1_epi8(static_cast<char>(of_row)));
+    return _mm_movemask_epi8(_mm_cmpeq_epi8(_mm_max_epu8(sums.v, all_limits), sums.v)) != 0xFFFF;
+  }
+  static void widen(Sums sums, I32* to) noexcept {
+    const __m128i zero = _mm_setzero_si128();
+    const __m128i low = _mm_unpacklo_epi8(sums.v, zero);
+    const __m128i high = _mm_unpackhi_epi8(sums.v, zero);
+    to[0] = {_mm_unpacklo_epi16(low, zero)};
+    to[1] = {_mm_unpackhi_epi16(low, zero)};
+    to[2] = {_mm_unpacklo_epi16(high, zero)};
+    to[3] = {_mm_unpackhi_epi16(high, zero)};
+  }
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd
+#endif  // SHORTSHOT_BASE_SIMD_SUMS_SSE2_HPP
+#elif defined(__aarch64__)
+
+// shortshot/base/simd_sums_neon.hpp: sums over packed rows on NEON. Included by simd_sums.hpp, which says what it must
+// do.
+#ifndef SHORTSHOT_BASE_SIMD_SUMS_NEON_HPP
+#define SHORTSHOT_BASE_SIMD_SUMS_NEON_HPP
+
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
+
+struct SmallCodes {
+  using Code = std::uint8_t;
+  using Limit = std::int16_t;
+  using Cell = std::uint8_t;
+  static constexpr std::size_t rows = 8, step_codes = 2, step_cells = 16;
+  struct Sums {
+    uint16x8_t first, second;  // of four rows each, of their even and odd codes apart
+  };
+
+  static void pack(const Code* const* of_rows, Cell* to) noexcept {
+    for (std::size_t k = 0; k < rows; ++k) std::memcpy(to + 2 * k, of_rows[k], 2);
+  }
+  [[nodiscard]] static Sums none() noexcept { return {vdupq_n_u16(0), vdupq_n_u16(0)}; }
+  [[nodiscard, gnu::always_inline]] static Sums add(Sums sums, const Cell* panel, const Code* codes) noexcept {
+    std::uint16_t pair;
+    std::memcpy(&pair, codes, sizeof pair);
+    const uint8x8_t pairs = vreinterpret_u8_u16(vdup_n_u16(pair));
+    const uint8x16_t cells = vld1q_u8(panel);
+    return {vmlal_u8(sums.first, vget_low_u8(cells), pairs), vmlal_u8(sums.second, vget_high_u8(cells), pairs)};
+  }
+  [[nodiscard, gnu::always_inline]] static bool any_near(Sums sums, const Limit* limits, Limit of_row) noexcept {
+    const int16x8_t all_sums = vreinterpretq_s16_u16(vpaddq_u16(sums.first, sums.second));
+    return vmaxvq_u16(vcgtq_s16(all_sums, vqaddq_s16(vld1q_s16(limits), vdupq_n_s16(of_row)))) != 0;
+  }
+  static void widen(Sums sums, I32* to) noexcept {
+    to[0] = {vreinterpretq_s32_u32(vpaddlq_u16(sums.first))};
+    to[1] = {vreinterpretq_s32_u32(vpaddlq_u16(sums.second))};
+  }
+};
+
+struct LargeCodes {
+  using Code = std::uint16_t;
+  using Limit = std::int32_t;
+  using Cell = std::uint16_t;
+  static constexpr std::size_t rows = 4, step_codes = 2, step_cells = 8;
+  struct Sums {
+    uint32x4_t first, second;  // of two rows each, of their even and odd codes apart
+  };
+
+  static void pack(const Code* const* of_rows, Cell* to) noexcept {
+    for (std::size_t k = 0; k < rows; ++k) std::memcpy(to + 2 * k, of_rows[k], 4);
+  }
+  [[nodiscard]] static Sums none() noexcept { return {vdupq_n_u32(0), vdupq_n_u32(0)}; }
+  [[nodiscard, gnu::always_inline]] static Sums add(Sums sums, const Cell* panel, const Code* codes) noexcept {
+    std::uint32_t pair;
+    std::memcpy(&pair, codes, sizeof pair);
+    const uint16x4_t pairs = vreinterpret_u16_u32(vdup_n_u32(pair));
+    const uint16x8_t cells = vld1q_u16(panel);
+    return {vmlal_u16(sums.first, vget_low_u16(cells), pairs), vmlal_u16(sums.second, vget_high_u16(cells), pairs)};
+  }
+  [[nodiscard, gnu::always_inline]] static bool any_near(Sums sums, const Limit* limits, Limit of_row) noexcept {
+    const int32x4_t all_sums = vreinterpretq_s32_u32(vpaddq_u32(sums.first, sums.second));
+    return vmaxvq_u32(vcgtq_s32(all_sums, vaddq_s32(vld1q_s32(limits), vdupq_n_s32(of_row)))) != 0;
+  }
+  static void widen(Sums sums, I32* to) noexcept {
+    to[0] = {vreinterpretq_s32_u32(vpaddq_u32(sums.first, sums.second))};
+  }
+};
+
+struct HalfBytes {
+  using Code = std::uint8_t;
+  using Limit = std::uint8_t;
+  using Cell = std::uint8_t;
+  static constexpr std::size_t rows = 16, step_codes = 1, step_cells = 16;
+  struct Sums {
+    uint8x16_t v;
+  };
+
+  static void pack(const Code* const* of_rows, Cell* to) noexcept {
+    for (std::size_t k = 0; k < rows; ++k) to[k] = static_cast<Cell>(*of_rows[k] >> 4);
+  }
+  [[nodiscard]] static Sums none() noexcept { return {vdupq_n_u8(0)}; }
+  [[nodiscard, gnu::always_inline]] static Sums add(Sums sums, const Cell* panel, const Code* codes) noexcept {
+    const uint8x16_t table = vld1q_u8(&half_byte_distances.of[0][0] + *codes);  // from the row's half byte
+    return {vaddq_u8(sums.v, vqtbl1q_u8(table, vld1q_u8(panel)))};
+  }
+  [[nodiscard, gnu::always_inline]] static bool any_near(Sums sums, const Limit* limits, Limit of_row) noexcept {
+    return vmaxvq_u8(vcltq_u8(sums.v, vqsubq_u8(vld1q_u8(limits), vdupq_n_u8(of_row)))) != 0;
+  }
+  static void widen(Sums sums, I32* to) noexcept {
+    const uint16x8_t low = vmovl_u8(vget_low_u8(sums.v));
+    const uint16x8_t high = vmovl_u8(vget_high_u8(sums.v));
+    to[0] = {vreinterpretq_s32_u32(vmovl_u16(vget_low_u16(low)))};
+    to[1] = {vreinterpretq_s32_u32(vmovl_u16(vget_high_u16(low)))};
+    to[2] = {vreinterpretq_s32_u32(vmovl_u16(vget_low_u16(high)))};
+    to[3] = {vreinterpretq_s32_u32(vmovl_u16(vget_high_u16(high)))};
+  }
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd
+#endif  // SHORTSHOT_BASE_SIMD_SUMS_NEON_HPP
+#else
+
+// shortshot/base/simd_sums_scalar.hpp: sums over packed rows, one row at a time. Included by simd_sums.hpp, which says
+// what it must do.
+#ifndef SHORTSHOT_BASE_SIMD_SUMS_SCALAR_HPP
+#define SHORTSHOT_BASE_SIMD_SUMS_SCALAR_HPP
+
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
+
+struct LargeCodes {
+  using Code = std::uint16_t;
+  using Limit = std::int32_t;
+  using Cell = std::uint16_t;
+  static constexpr std::size_t rows = 1, step_codes = 2, step_cells = 2;
+  struct Sums {
+    std::uint32_t v;
+  };
+
+  static void pack(const Code* const* of_rows, Cell* to) noexcept {
+    to[0] = of_rows[0][0];
+    to[1] = of_rows[0][1];
+  }
+  [[nodiscard]] static Sums none() noexcept { return {0}; }
+  [[nodiscard, gnu::always_inline]] static Sums add(Sums sums, const Cell* panel, const Code* codes) noexcept {
+    return {sums.v + std::uint32_t{panel[0]} * codes[0] + std::uint32_t{panel[1]} * codes[1]};
+  }
+  [[nodiscard, gnu::always_inline]] static bool any_near(Sums sums, const Limit* limits, Limit of_row) noexcept {
+    return static_cast<std::int32_t>(sums.v) > *limits + of_row;
+  }
+  static void widen(Sums sums, I32* to) noexcept { to[0] = all_int(static_cast<std::int32_t>(sums.v)); }
+};
+
+using SmallCodes = LargeCodes;
+
+struct HalfBytes {
+  using Code = std::uint8_t;
+  using Limit = std::uint8_t;
+  using Cell = std::uint8_t;
+  static constexpr std::size_t rows = 1, step_codes = 1, step_cells = 1;
+  struct Sums {
+    std::int32_t v;
+  };
+
+  static void pack(const Code* const* of_rows, Cell* to) noexcept { *to = static_cast<Cell>(*of_rows[0] >> 4); }
+  [[nodiscard]] static Sums none() noexcept { return {0}; }
+  [[nodiscard, gnu::always_inline]] static Sums add(Sums sums, const Cell* panel, const Code* codes) noexcept {
+    return {sums.v + half_byte_distances.of[*codes >> 4][*panel]};
+  }
+  [[nodiscard, gnu::always_inline]] static bool any_near(Sums sums, const Limit* limits, Limit of_row) noexcept {
+    return sums.v < *limits - of_row;
+  }
+  static void widen(Sums sums, I32* to) noexcept { to[0] = all_int(sums.v); }
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd
+#endif  // SHORTSHOT_BASE_SIMD_SUMS_SCALAR_HPP
+#endif
+#endif  // SHORTSHOT_BASE_SIMD_SUMS_HPP
+
 // shortshot/recognition/compare_rows.hpp: which pairs of rows may be near each other, for match.hpp. Hosted only:
 // allocates, starts threads.
 //
@@ -9927,7 +10334,7 @@ template <class D>
 // computed again as a sum of squared differences, and that decides. In rows of no particular order that is so for about
 // log(count) rows of each query.
 //
-// Of rows in any other format every pair is compared.
+// Packed rows have compare_packed.hpp. Of rows in any other format every pair is compared.
 #ifndef SHORTSHOT_RECOGNITION_COMPARE_ROWS_HPP
 #define SHORTSHOT_RECOGNITION_COMPARE_ROWS_HPP
 
@@ -10156,8 +10563,8 @@ inline namespace SHORTSHOT_TYPES {
 ///     };
 ///
 /// compare() gives an integer or a float that is the larger the farther away: a sum of squares saves the root of each
-/// pair. It is less than the largest one of its type; a row for which it is that, or NaN, is nobody's match. ByteRows
-/// and BitRows are made like that, and rows of floats (DescriptorRows) compared faster, by matrix products.
+/// pair. It is less than the largest one of its type; a row for which it is that, or NaN, is nobody's match. The
+/// library's own rows are made like that, and compared faster than pair by pair.
 template <class Rows>
 inline constexpr bool is_row_format =
     std::conjunction<detail::HasCount<Rows>, detail::HasStatus<Rows>, detail::HasFits<Rows>,
@@ -10361,6 +10768,7 @@ class AnyRows {
   static constexpr Number farthest = std::numeric_limits<Number>::max();
 
   explicit AnyRows(const Rows& rows) noexcept : rows_(rows) {}
+  [[nodiscard]] const Rows& rows() const noexcept { return rows_; }
   [[nodiscard]] std::size_t count() const noexcept { return rows_.count; }
   [[nodiscard]] bool takes_part(std::size_t row) const noexcept { return is_ok(rows_, row); }
   [[nodiscard]] Number compare(std::size_t row, const AnyRows& other, std::size_t others_row) const {
@@ -10397,7 +10805,7 @@ void for_near(Executor& executor, std::size_t team, const AnyRows<Rows>& queries
 
 /// How rows of a format are compared.
 template <class Rows>
-struct Comparison {
+struct PairComparison {
   using Compared = AnyRows<Rows>;
   using Limits = NoLimits;
   [[nodiscard]] static bool fit(const Rows& a, const Rows& b) { return a.fits(b); }
@@ -10406,6 +10814,8 @@ struct Comparison {
     return rows.distance(compared);
   }
 };
+template <class Rows>
+struct Comparison : PairComparison<Rows> {};
 template <>
 struct Comparison<DescriptorRows> {
   using Compared = ComparedRows;
@@ -10419,6 +10829,19 @@ struct Comparison<DescriptorRows> {
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_RECOGNITION_COMPARE_ROWS_HPP
+
+// shortshot/recognition/packed_panels.hpp: packed rows where compare_packed.hpp wants them: those of a database as
+// codes one after the other, queries side by side in panels. Hosted only: allocates.
+#ifndef SHORTSHOT_RECOGNITION_PACKED_PANELS_HPP
+#define SHORTSHOT_RECOGNITION_PACKED_PANELS_HPP
+
+// shortshot/recognition/row_codes.hpp: packed rows as the codes that compare_packed.hpp works on. Hosted only:
+// allocates.
+//
+// A row of bytes or nibbles is a row of numbers, and one of bits a row of half bytes. They are put in an order in which
+// those come first that differ most from row to row: then the first of them tell most pairs apart.
+#ifndef SHORTSHOT_RECOGNITION_ROW_CODES_HPP
+#define SHORTSHOT_RECOGNITION_ROW_CODES_HPP
 
 // shortshot/recognition/packed_rows.hpp: borrowed rows of bytes, nibbles and bits, which are matched as rows of floats
 // are. Hosted only.
@@ -10577,6 +11000,490 @@ template <class D, int Group>
 }  // namespace shortshot
 #endif  // SHORTSHOT_RECOGNITION_PACKED_ROWS_HPP
 
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Distances that are sums of squared differences of numbers: |a|^2 + |b|^2 - 2 ab, with the norms known beforehand.
+template <class SomeOps, int Bits>
+struct NumberCodes {
+  using Ops = SomeOps;
+  using Code = typename Ops::Code;
+  static constexpr int bits = Bits;
+  /// After so many steps it is asked whether going on is worth it.
+  static constexpr std::size_t chunk_steps = 32;
+  [[nodiscard]] static Code code_of(unsigned number) noexcept { return static_cast<Code>(number); }
+  [[nodiscard]] static std::uint32_t distance(unsigned a, unsigned b) noexcept { return (a - b) * (a - b); }
+  [[nodiscard]] static std::uint32_t squared(Code code) noexcept { return std::uint32_t{code} * code; }
+  [[nodiscard, gnu::always_inline]] static simd::I32 distances(simd::I32 norms, simd::I32 sums) noexcept {
+    return norms - (sums + sums);
+  }
+
+  /// Of a chunk: |a|^2 + |b|^2 - 2 ab < limit only if ab > limit_of(|a|^2, limit) + limit_of(|b|^2, 0).
+  using Limit = typename Ops::Limit;
+  [[nodiscard]] static Limit query_limit(std::uint32_t norm, std::uint32_t limit) noexcept {
+    return limit_of(norm, limit);
+  }
+  [[nodiscard]] static Limit no_query_limit(std::uint32_t norm) noexcept { return limit_of(norm, 0); }
+  [[nodiscard]] static Limit row_limit(std::uint32_t norm, std::uint32_t limit) noexcept {
+    return limit_of(norm, limit);
+  }
+  [[nodiscard]] static Limit no_row_limit(std::uint32_t norm) noexcept { return limit_of(norm, 0); }
+
+ private:
+  [[nodiscard]] static Limit limit_of(std::uint32_t norm, std::uint32_t limit) noexcept {
+    constexpr std::int64_t least = std::numeric_limits<Limit>::min() / 2;
+    return static_cast<Limit>(std::max(least, (std::int64_t{norm} - std::int64_t{limit}) >> 1));
+  }
+};
+
+/// Distances that are sums of bits that differ.
+struct BitCodes {
+  using Ops = simd::HalfBytes;
+  using Code = Ops::Code;
+  static constexpr int bits = 4;
+  static constexpr std::size_t chunk_steps = 60;
+  [[nodiscard]] static Code code_of(unsigned half) noexcept { return static_cast<Code>(half << 4); }
+  [[nodiscard]] static std::uint32_t distance(unsigned a, unsigned b) noexcept {
+    return simd::half_byte_distances.of[a][b];
+  }
+  [[nodiscard]] static std::uint32_t squared(Code) noexcept { return 0; }
+  [[nodiscard, gnu::always_inline]] static simd::I32 distances(simd::I32 norms, simd::I32 sums) noexcept {
+    return norms + sums;
+  }
+
+  /// A chunk has less than 255 bits.
+  using Limit = Ops::Limit;
+  [[nodiscard]] static Limit query_limit(std::uint32_t, std::uint32_t limit) noexcept {
+    return static_cast<Limit>(std::min(limit, 255u));
+  }
+  [[nodiscard]] static Limit no_query_limit(std::uint32_t) noexcept { return 255; }
+  [[nodiscard]] static Limit row_limit(std::uint32_t, std::uint32_t limit) noexcept {
+    return static_cast<Limit>(255u - std::min(limit, 255u));
+  }
+  [[nodiscard]] static Limit no_row_limit(std::uint32_t) noexcept { return 0; }
+};
+
+/// Which codes rows of a format are made of; for those formats that it is specialized for.
+template <class Rows>
+struct CodesOf {};
+template <>
+struct CodesOf<ByteRows> : NumberCodes<simd::LargeCodes, 8> {
+  [[nodiscard]] static const std::uint8_t* bytes(const ByteRows& rows) noexcept { return rows.values; }
+};
+template <>
+struct CodesOf<NibbleRows> : NumberCodes<simd::SmallCodes, 4> {
+  [[nodiscard]] static const std::uint8_t* bytes(const NibbleRows& rows) noexcept { return rows.bytes; }
+};
+template <>
+struct CodesOf<BitRows> : BitCodes {
+  [[nodiscard]] static const std::uint8_t* bytes(const BitRows& rows) noexcept { return rows.bytes; }
+};
+
+/// Number `place` of those of `Bits` bits that lie one behind the other, the lowest bits first.
+template <int Bits>
+[[nodiscard, gnu::always_inline]] inline unsigned number_at(const std::uint8_t* bytes, std::size_t place) noexcept {
+  constexpr auto mask = (1u << Bits) - 1u;
+  const std::size_t bit = place * Bits;
+  unsigned number = static_cast<unsigned>(bytes[bit / 8]) >> bit % 8;
+  if constexpr (8 % Bits != 0) {
+    if (bit % 8 + Bits > 8) number |= static_cast<unsigned>(bytes[bit / 8 + 1]) << (8 - bit % 8);
+  }
+  return number & mask;
+}
+
+/// Turns rows that fit each other into codes, in the order that is best for one set of them.
+template <class Rows>
+class RowCodes {
+ public:
+  using Format = CodesOf<Rows>;
+  using Ops = typename Format::Ops;
+  using Code = typename Format::Code;
+
+  explicit RowCodes(const Rows& rows) {
+    constexpr std::size_t most_pairs = 256;
+    const std::size_t numbers = rows.size * 8 / Format::bits;
+    std::vector<std::uint64_t> differences(numbers);
+    const std::size_t stride = std::max<std::size_t>(1, rows.count / most_pairs);
+    for (std::size_t row = stride; row < rows.count; row += stride) {
+      const std::uint8_t* const a = Format::bytes(rows) + row * rows.size;
+      const std::uint8_t* const b = a - stride * rows.size;
+      for (std::size_t i = 0; i < numbers; ++i) {
+        differences[i] += Format::distance(number_at<Format::bits>(a, i), number_at<Format::bits>(b, i));
+      }
+    }
+    for (std::size_t i = 0; i < numbers; ++i) order_.push_back(static_cast<std::uint32_t>(i));
+    std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t k) {
+      return differences[i] != differences[k] ? differences[i] > differences[k] : i < k;
+    });
+  }
+
+  [[nodiscard]] std::size_t steps() const noexcept { return (order_.size() + Ops::step_codes - 1) / Ops::step_codes; }
+  [[nodiscard]] std::size_t codes() const noexcept { return steps() * Ops::step_codes; }
+  [[nodiscard]] std::size_t chunks() const noexcept {
+    return (steps() + Format::chunk_steps - 1) / Format::chunk_steps;
+  }
+
+  /// codes() of a row, and chunks() parts of its squared norm. What the last step lacks is left as it is: zeros.
+  void encode(const Rows& rows, std::size_t row, Code* codes, std::uint32_t* norms) const noexcept {
+    constexpr std::size_t chunk_codes = Format::chunk_steps * Ops::step_codes;
+    const std::uint8_t* const bytes = Format::bytes(rows) + row * rows.size;
+    for (std::size_t i = 0; i < order_.size(); ++i) {
+      codes[i] = Format::code_of(number_at<Format::bits>(bytes, order_[i]));
+      norms[i / chunk_codes] += Format::squared(codes[i]);
+    }
+  }
+
+ private:
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_ROW_CODES_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Rows of the database that meet a panel at the same time, and registers of sums for each: few enough for the
+/// registers that there are, many enough for each load to serve several.
+inline constexpr std::size_t packed_tile = 4;
+inline constexpr std::size_t packed_sums = 2;
+
+/// All rows of a database as codes.
+template <class Rows>
+class PackedDatabase {
+ public:
+  using Format = CodesOf<Rows>;
+  using Code = typename Format::Code;
+  static constexpr std::size_t chunk_codes = Format::chunk_steps * Format::Ops::step_codes;
+
+  explicit PackedDatabase(const Rows& rows)
+      : codes_(rows), values_(rows.count * codes_.codes()), norms_(rows.count * codes_.chunks()) {
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      codes_.encode(rows, i, values_.data() + i * row_codes(), norms_.data() + i * chunks());
+    }
+  }
+  [[nodiscard]] const RowCodes<Rows>& codes() const noexcept { return codes_; }
+  [[nodiscard]] std::size_t row_codes() const noexcept { return codes_.codes(); }
+  [[nodiscard]] std::size_t chunks() const noexcept { return codes_.chunks(); }
+  [[nodiscard]] std::size_t chunk_steps(std::size_t chunk) const noexcept {
+    return std::min(Format::chunk_steps, codes_.steps() - chunk * Format::chunk_steps);
+  }
+  /// The codes of a row in a chunk.
+  [[nodiscard]] const Code* at(std::size_t row, std::size_t chunk) const noexcept {
+    return values_.data() + row * row_codes() + chunk * chunk_codes;
+  }
+  [[nodiscard]] std::uint32_t norm(std::size_t row, std::size_t chunk) const noexcept {
+    return norms_[row * chunks() + chunk];
+  }
+
+ private:
+  RowCodes<Rows> codes_;
+  std::vector<Code> values_;
+  std::vector<std::uint32_t> norms_;
+};
+
+/// The sums of a panel and one row.
+template <class Ops>
+struct PanelSums {
+  typename Ops::Sums of[packed_sums];
+};
+
+/// Some queries side by side. Lanes without a query have codes 0.
+template <class Rows>
+class Panel {
+ public:
+  using Format = CodesOf<Rows>;
+  using Ops = typename Format::Ops;
+  using Code = typename Ops::Code;
+  static constexpr std::size_t rows = packed_sums * Ops::rows;
+  static constexpr std::size_t registers = rows / simd::lanes;
+  static constexpr std::size_t step_cells = packed_sums * Ops::step_cells;
+  static_assert(query_block % rows == 0, "whole panels");
+
+  explicit Panel(const RowCodes<Rows>& codes)
+      : codes_(&codes), cells_(codes.steps() * step_cells), norms_(codes.chunks() * rows), limits_(rows), all_(rows) {}
+
+  void pack(const Rows& queries, std::size_t first) {
+    std::vector<Code> row_codes(rows * codes_->codes());
+    std::vector<std::uint32_t> row_norms(codes_->chunks());
+    std::fill(norms_.begin(), norms_.end(), 0u);
+    for (std::size_t k = 0; k < rows && first + k < queries.count; ++k) {
+      std::fill(row_norms.begin(), row_norms.end(), 0u);
+      codes_->encode(queries, first + k, row_codes.data() + k * codes_->codes(), row_norms.data());
+      for (std::size_t c = 0; c < row_norms.size(); ++c) norms_[c * rows + k] = row_norms[c];
+    }
+    for (std::size_t step = 0; step < codes_->steps(); ++step) {
+      for (std::size_t s = 0; s < packed_sums; ++s) {
+        const Code* of_rows[Ops::rows];
+        for (std::size_t k = 0; k < Ops::rows; ++k) {
+          of_rows[k] = row_codes.data() + (s * Ops::rows + k) * codes_->codes() + step * Ops::step_codes;
+        }
+        Ops::pack(of_rows, cells_.data() + step * step_cells + s * Ops::step_cells);
+      }
+    }
+  }
+  /// To what the distance of one of the queries is to be below.
+  void set_limit(std::size_t k, std::uint32_t limit) noexcept {
+    limits_[k] = Format::query_limit(norms_[k], limit);
+    all_[k] = Format::no_query_limit(norms_[k]);
+  }
+  /// May any of the queries be nearer to a row than its limit, or than the row's (0: that does not count), by the sums
+  /// of the first chunk?
+  [[nodiscard, gnu::always_inline]] bool any_near(const PanelSums<Ops>& sums, std::uint32_t norm,
+                                                  std::uint32_t limit) const noexcept {
+    return any_near(sums, limits_.data(), Format::no_row_limit(norm)) ||
+           (limit > 0 && any_near(sums, all_.data(), Format::row_limit(norm, limit)));
+  }
+  [[nodiscard]] const typename Ops::Cell* cells(std::size_t chunk) const noexcept {
+    return cells_.data() + chunk * Format::chunk_steps * step_cells;
+  }
+  [[nodiscard]] const std::uint32_t* norms(std::size_t chunk) const noexcept { return norms_.data() + chunk * rows; }
+
+ private:
+  using Limit = typename Format::Limit;
+  [[nodiscard, gnu::always_inline]] static bool any_near(const PanelSums<Ops>& sums, const Limit* limits,
+                                                         Limit of_row) noexcept {
+    bool any = false;
+    unroll<int{packed_sums}>([&](auto k) { any = any || Ops::any_near(sums.of[k], limits + k * Ops::rows, of_row); });
+    return any;
+  }
+
+  const RowCodes<Rows>* codes_;
+  std::vector<typename Ops::Cell> cells_;
+  std::vector<std::uint32_t> norms_;
+  std::vector<Limit> limits_;  // of the queries by themselves,
+  std::vector<Limit> all_;     // and if only the row's counts
+};
+
+/// Some steps of a panel and of a tile of rows, from these codes on.
+template <class Ops>
+[[gnu::noinline]] void sum_up(const typename Ops::Cell* cells, const typename Ops::Code* const (&codes)[packed_tile],
+                              std::size_t steps, PanelSums<Ops> (&out)[packed_tile]) noexcept {
+  constexpr int tile = packed_tile;
+  constexpr int width = packed_sums;
+  typename Ops::Sums sums[packed_tile][packed_sums];
+  const typename Ops::Code* row[packed_tile];
+  unroll<tile>([&](auto r) {
+    row[r] = codes[r];
+    unroll<width>([&](auto k) { sums[r][k] = Ops::none(); });
+  });
+  for (std::size_t step = 0; step < steps; ++step) {
+    unroll<tile>([&](auto r) SHORTSHOT_INLINE_LAMBDA {
+      unroll<width>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+        sums[r][k] = Ops::add(sums[r][k], cells + k * Ops::step_cells, row[r] + step * Ops::step_codes);
+      });
+    });
+    cells += packed_sums * Ops::step_cells;
+  }
+  unroll<tile>([&](auto r) { unroll<width>([&](auto k) { out[r].of[k] = sums[r][k]; }); });
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_PACKED_PANELS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Rows of the database that meet a block of queries at a time.
+inline constexpr std::size_t packed_row_block = 512;
+
+/// Distances from 0 to 2^32 - 1 in the order of signed numbers, which is what registers compare.
+[[nodiscard]] inline std::int32_t ordered(std::uint32_t distance) noexcept {
+  return static_cast<std::int32_t>(distance ^ 0x80000000u);
+}
+
+/// What the distances of each query are compared with: the best so far. Queries that take no part have the least.
+class PackedLimits {
+ public:
+  template <class Rows>
+  explicit PackedLimits(const AnyRows<Rows>& queries)
+      : limits_((queries.count() + query_block - 1) / query_block * query_block, 0x80000000u) {
+    for (std::size_t q = 0; q < queries.count(); ++q) {
+      if (queries.takes_part(q)) set(q, AnyRows<Rows>::farthest);
+    }
+  }
+  void set(std::size_t query, std::uint32_t distance) noexcept { limits_[query] = distance ^ 0x80000000u; }
+  [[nodiscard]] std::uint32_t of(std::size_t query) const noexcept { return limits_[query] ^ 0x80000000u; }
+  [[nodiscard]] const std::uint32_t* from(std::size_t query) const noexcept { return limits_.data() + query; }
+
+ private:
+  std::vector<std::uint32_t> limits_;
+};
+
+/// Finds the pairs that are near: nearer than `limits` has for the query, or what `best_of_rows` (null: nothing) has
+/// for the row.
+template <class Rows>
+struct NearPackedPairs {
+  using Format = CodesOf<Rows>;
+  using Ops = typename Format::Ops;
+  static constexpr std::size_t registers = Panel<Rows>::registers;
+
+  const AnyRows<Rows>& queries;
+  const AnyRows<Rows>& database;
+  const PackedDatabase<Rows>& codes;
+  const PackedLimits& limits;
+  const Candidate<std::uint32_t>* best_of_rows;  // as many for each thread as there are rows
+  void (*consider)(const void* considering, std::size_t thread, std::size_t query, std::size_t row);
+  const void* considering;
+
+  /// What a thread needs: panels, and of the rows that are at a panel those that may be near, with how far they are
+  /// from the queries at least.
+  struct Memory {
+    std::vector<Panel<Rows>> panels;
+    std::vector<std::size_t> rows;
+    std::vector<simd::I32> distances;
+
+    explicit Memory(const RowCodes<Rows>& codes)
+        : panels(query_block / Panel<Rows>::rows, Panel<Rows>(codes)),
+          rows(packed_row_block),
+          distances(packed_row_block * registers) {}
+  };
+
+  /// A block of queries and all rows.
+  void meet_all(Memory& memory, std::size_t thread, std::size_t begin, std::size_t end) const {
+    const std::size_t used = (end - begin + Panel<Rows>::rows - 1) / Panel<Rows>::rows;
+    for (std::size_t i = 0; i < used; ++i) {
+      const std::size_t query = begin + i * Panel<Rows>::rows;
+      memory.panels[i].pack(queries.rows(), query);
+      for (std::size_t k = 0; k < Panel<Rows>::rows; ++k) memory.panels[i].set_limit(k, limits.of(query + k));
+    }
+    for (std::size_t first = 0; first < database.count(); first += packed_row_block) {
+      const std::size_t last = std::min(first + packed_row_block, database.count());
+      for (std::size_t i = 0; i < used; ++i) {
+        meet(memory, memory.panels[i], thread, begin + i * Panel<Rows>::rows, first, last);
+      }
+    }
+  }
+
+ private:
+  /// The queries of a panel, which are those from `query` on, and a block of rows.
+  void meet(Memory& memory, Panel<Rows>& panel, std::size_t thread, std::size_t query, std::size_t first,
+            std::size_t last) const {
+    std::size_t count = 0;
+    for (std::size_t row = first; row < last; ++row) {
+      if (database.takes_part(row)) memory.rows[count++] = row;
+    }
+    for (std::size_t chunk = 0; chunk < codes.chunks() && count > 0; ++chunk) {
+      count = go_on(memory, panel, count, chunk, thread, query);
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      consider_lanes(panel, thread, query, memory.rows[i], memory.distances.data() + i * registers);
+    }
+  }
+
+  /// Adds a chunk for the first `count` rows; keeps those that may still be near.
+  [[nodiscard]] std::size_t go_on(Memory& memory, const Panel<Rows>& panel, std::size_t count, std::size_t chunk,
+                                  std::size_t thread, std::size_t query) const {
+    std::size_t* const rows = memory.rows.data();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count; i += packed_tile) {
+      const typename Ops::Code* tile[packed_tile];
+      for (std::size_t r = 0; r < packed_tile; ++r) tile[r] = codes.at(rows[std::min(i + r, count - 1)], chunk);
+      PanelSums<Ops> sums[packed_tile];
+      sum_up<Ops>(panel.cells(chunk), tile, codes.chunk_steps(chunk), sums);
+      for (std::size_t r = 0; r < packed_tile && i + r < count; ++r) {
+        const std::size_t row = rows[i + r];
+        const std::uint32_t of_row = limit_of_row(thread, row);
+        if (chunk == 0 && !panel.any_near(sums[r], codes.norm(row, 0), of_row)) continue;
+        const simd::I32* const before = memory.distances.data() + (i + r) * registers;
+        simd::I32 distances[registers];
+        unroll<int{registers}>([&](auto k) { distances[k] = chunk == 0 ? simd::all_int(ordered(0)) : before[k]; });
+        add(panel, row, chunk, sums[r], distances);
+        if (chunk > 0 && !any(near(query, of_row, distances))) continue;
+        simd::I32* const after = memory.distances.data() + kept * registers;
+        unroll<int{registers}>([&](auto k) { after[k] = distances[k]; });
+        rows[kept++] = row;
+      }
+    }
+    return kept;
+  }
+
+  /// 0 if it does not count.
+  [[nodiscard]] std::uint32_t limit_of_row(std::size_t thread, std::size_t row) const noexcept {
+    return best_of_rows != nullptr ? best_of_rows[thread * database.count() + row].compared : 0;
+  }
+
+  /// Adds what a chunk adds to the distances.
+  [[gnu::always_inline]] void add(const Panel<Rows>& panel, std::size_t row, std::size_t chunk,
+                                  const PanelSums<Ops>& sums, simd::I32 (&distances)[registers]) const {
+    constexpr std::size_t widened = Ops::rows / simd::lanes;
+    const simd::I32 row_norm = simd::all_int(static_cast<std::int32_t>(codes.norm(row, chunk)));
+    const std::uint32_t* const norms = panel.norms(chunk);
+    unroll<int{packed_sums}>([&](auto s) {
+      simd::I32 wide[widened];
+      Ops::widen(sums.of[s], wide);
+      unroll<int{widened}>([&](auto w) {
+        constexpr std::size_t k = s * widened + w;
+        const simd::I32 both = simd::load(norms + k * simd::lanes) + row_norm;
+        distances[k] = distances[k] + Format::distances(both, wide[w]);
+      });
+    });
+  }
+
+  [[nodiscard, gnu::always_inline]] simd::Mask near(std::size_t query, std::uint32_t of_row,
+                                                    const simd::I32 (&distances)[registers]) const {
+    const std::uint32_t* const of_queries = limits.from(query);
+    simd::Mask near = simd::load(of_queries) > distances[0];
+    unroll<int{registers - 1}>(
+        [&](auto k) { near = near | (simd::load(of_queries + (k + 1) * simd::lanes) > distances[k + 1]); });
+    const simd::I32 limit = simd::all_int(ordered(of_row));
+    if (of_row > 0) unroll<int{registers}>([&](auto k) { near = near | (limit > distances[k]); });
+    return near;
+  }
+
+  /// All queries of a panel that are near.
+  void consider_lanes(Panel<Rows>& panel, std::size_t thread, std::size_t query, std::size_t row,
+                      const simd::I32* of_queries) const {
+    const simd::I32 of_row = simd::all_int(ordered(limit_of_row(thread, row)));
+    for (std::size_t k = 0; k < Panel<Rows>::rows; k += simd::lanes) {
+      const simd::I32 distances = of_queries[k / simd::lanes];
+      const simd::Mask near = (simd::load(limits.from(query + k)) > distances) | (of_row > distances);
+      if (!any(near)) continue;
+      float is_near[simd::lanes];
+      simd::store(is_near, simd::keep(near, simd::all(1.0f)));
+      for (std::size_t lane = 0; lane < simd::lanes && query + k + lane < queries.count(); ++lane) {
+        if (is_near[lane] == 0.0f || !queries.takes_part(query + k + lane)) continue;
+        consider(considering, thread, query + k + lane, row);
+        panel.set_limit(k + lane, limits.of(query + k + lane));
+      }
+    }
+  }
+};
+
+/// Calls consider(thread, query, row) for all pairs that take part and are nearer than the best so far, of the query or
+/// (if there is one) of the row; one thread gets queries in ascending order for each row, and rows for each query.
+template <class Executor, class Rows, class Consider>
+void for_near(Executor& executor, std::size_t team, const AnyRows<Rows>& queries, const AnyRows<Rows>& database,
+              const PackedLimits& limits, const Candidate<std::uint32_t>* best_of_rows, const Consider& consider) {
+  const auto call = [](const void* considering, std::size_t thread, std::size_t query, std::size_t row) {
+    (*static_cast<const Consider*>(considering))(thread, query, row);
+  };
+  const PackedDatabase<Rows> codes(database.rows());
+  const NearPackedPairs<Rows> pairs{queries, database, codes, limits, best_of_rows, call, &consider};
+  std::vector<typename NearPackedPairs<Rows>::Memory> memory;
+  for (std::size_t t = 0; t < team; ++t) memory.emplace_back(codes.codes());
+  for_blocks(executor, team, queries.count(), query_block, [&](std::size_t thread, std::size_t begin, std::size_t end) {
+    pairs.meet_all(memory[thread], thread, begin, end);
+  });
+}
+
+template <class Rows>
+struct PackedComparison : PairComparison<Rows> {
+  using Limits = PackedLimits;
+};
+template <>
+struct Comparison<ByteRows> : PackedComparison<ByteRows> {};
+template <>
+struct Comparison<NibbleRows> : PackedComparison<NibbleRows> {};
+template <>
+struct Comparison<BitRows> : PackedComparison<BitRows> {};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_COMPARE_PACKED_HPP
+
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
 
@@ -10676,7 +11583,7 @@ inline namespace SHORTSHOT_CODE {
 /// `queries`, `database`  DescriptorRows, ByteRows, NibbleRows or BitRows (see rows_of()), or rows in a format of your
 /// own
 ///            (extend::is_row_format). Distances are L2 for floats (sums of squared differences in float, in a fixed
-///            order: l2_distance()) and for bytes, Hamming for bits
+///            order: l2_distance()), for bytes and nibbles, Hamming for bits
 /// `k`        from 1 on; meant to be small (an insertion costs O(k))
 /// `out`      queries.count * k: those of query i from out[i * k] on. {no_row, infinity} where the database has too few
 ///            rows that take part, or where the query does not. A row takes part if its status is ok; one of floats, if
@@ -10686,9 +11593,12 @@ inline namespace SHORTSHOT_CODE {
 ///
 /// Statuses: bad_rows (null pointers, rows of different or no length, 2^32 - 1 rows or more), bad_option (k, or more
 /// results than memory has room for); `out` is empty then. O(queries.count * database.count * size), for floats at the
-/// speed of Eigen's matrix product; a database in the order of falling distances, or of copies, costs a sum of squared
-/// differences for each pair on top of it. Allocates `out` twice; for floats also 8 bytes for each query, 4 for each
-/// row of the database, and 512 for each value of a row and each thread. May throw what extract() may.
+/// speed of Eigen's matrix product, for bytes, nibbles and bits in blocks as well, which stop early where all are far;
+/// a database in the order of falling distances, or of copies, costs the distance of each pair on top of it. Allocates
+/// `out` twice; for floats also 8 bytes for each query, 4 for each row of the database, and 512 for each value of a row
+/// and each thread; for bytes, nibbles and bits 4 bytes for each query, 1 or 2 for each value (or 4 bits) of the
+/// database, and for each thread some hundred KB and 256 bytes (SSE2, bits: 2 KB) for each value. May throw what
+/// extract() may.
 template <class Rows = DescriptorRows, class Threads = unsigned>
 [[nodiscard]] Status nearest(const Rows& queries, const Rows& database, std::size_t k, std::vector<Match>& out,
                              Threads&& threads = 1u) {
@@ -10708,7 +11618,7 @@ template <class Rows = DescriptorRows, class Threads = unsigned>
 /// pass over all pairs gives both directions.
 ///
 /// Formats of rows, `threads`, statuses, the rows that take part and cost: as for nearest(). Allocates `out`, 8 bytes
-/// for each row of the source, and for each row of the target and each thread; for floats what nearest() does besides.
+/// for each row of the source, and for each row of the target and each thread; besides what nearest() does.
 template <class Rows = DescriptorRows, class Threads = unsigned>
 [[nodiscard]] Status reciprocal_correspondences(const Rows& source, const Rows& target, std::vector<MatchedPair>& out,
                                                 Threads&& threads = 1u) {
@@ -10754,8 +11664,8 @@ template <class Rows = DescriptorRows, class Threads = unsigned>
 ///          rows that take part has no second nearest, and there is no pair: nothing says that one would be right
 ///
 /// Formats of rows, `threads`, the rows that take part and cost: as for nearest(). Statuses: bad_rows, as there, and
-/// bad_option (ratio); `out` is empty then. Allocates `out`, 16 bytes for each row of the source, and for floats what
-/// nearest() does besides.
+/// bad_option (ratio); `out` is empty then. Allocates `out`, 16 bytes for each row of the source, and what nearest()
+/// does besides.
 template <class Rows = DescriptorRows, class Threads = unsigned>
 [[nodiscard]] Status ratio_correspondences(const Rows& source, const Rows& target, float ratio,
                                            std::vector<MatchedPair>& out, Threads&& threads = 1u) {

@@ -7,7 +7,7 @@
 // computed again as a sum of squared differences, and that decides. In rows of no particular order that is so for about
 // log(count) rows of each query.
 //
-// Of rows in any other format every pair is compared.
+// Packed rows have compare_packed.hpp. Of rows in any other format every pair is compared.
 #pragma once
 
 #include <algorithm>
@@ -199,6 +199,7 @@ class AnyRows {
   static constexpr Number farthest = std::numeric_limits<Number>::max();
 
   explicit AnyRows(const Rows& rows) noexcept : rows_(rows) {}
+  [[nodiscard]] const Rows& rows() const noexcept { return rows_; }
   [[nodiscard]] std::size_t count() const noexcept { return rows_.count; }
   [[nodiscard]] bool takes_part(std::size_t row) const noexcept { return is_ok(rows_, row); }
   [[nodiscard]] Number compare(std::size_t row, const AnyRows& other, std::size_t others_row) const {
@@ -235,7 +236,7 @@ void for_near(Executor& executor, std::size_t team, const AnyRows<Rows>& queries
 
 /// How rows of a format are compared.
 template <class Rows>
-struct Comparison {
+struct PairComparison {
   using Compared = AnyRows<Rows>;
   using Limits = NoLimits;
   [[nodiscard]] static bool fit(const Rows& a, const Rows& b) { return a.fits(b); }
@@ -244,6 +245,8 @@ struct Comparison {
     return rows.distance(compared);
   }
 };
+template <class Rows>
+struct Comparison : PairComparison<Rows> {};
 template <>
 struct Comparison<DescriptorRows> {
   using Compared = ComparedRows;

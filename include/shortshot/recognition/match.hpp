@@ -13,6 +13,7 @@
 #include "../batch/executor.hpp"
 #include "../config.hpp"
 #include "../status.hpp"
+#include "compare_packed.hpp"
 #include "compare_rows.hpp"
 #include "descriptor_rows.hpp"
 #include "packed_rows.hpp"
@@ -117,7 +118,7 @@ inline namespace SHORTSHOT_CODE {
 /// `queries`, `database`  DescriptorRows, ByteRows, NibbleRows or BitRows (see rows_of()), or rows in a format of your
 /// own
 ///            (extend::is_row_format). Distances are L2 for floats (sums of squared differences in float, in a fixed
-///            order: l2_distance()) and for bytes, Hamming for bits
+///            order: l2_distance()), for bytes and nibbles, Hamming for bits
 /// `k`        from 1 on; meant to be small (an insertion costs O(k))
 /// `out`      queries.count * k: those of query i from out[i * k] on. {no_row, infinity} where the database has too few
 ///            rows that take part, or where the query does not. A row takes part if its status is ok; one of floats, if
@@ -127,9 +128,12 @@ inline namespace SHORTSHOT_CODE {
 ///
 /// Statuses: bad_rows (null pointers, rows of different or no length, 2^32 - 1 rows or more), bad_option (k, or more
 /// results than memory has room for); `out` is empty then. O(queries.count * database.count * size), for floats at the
-/// speed of Eigen's matrix product; a database in the order of falling distances, or of copies, costs a sum of squared
-/// differences for each pair on top of it. Allocates `out` twice; for floats also 8 bytes for each query, 4 for each
-/// row of the database, and 512 for each value of a row and each thread. May throw what extract() may.
+/// speed of Eigen's matrix product, for bytes, nibbles and bits in blocks as well, which stop early where all are far;
+/// a database in the order of falling distances, or of copies, costs the distance of each pair on top of it. Allocates
+/// `out` twice; for floats also 8 bytes for each query, 4 for each row of the database, and 512 for each value of a row
+/// and each thread; for bytes, nibbles and bits 4 bytes for each query, 1 or 2 for each value (or 4 bits) of the
+/// database, and for each thread some hundred KB and 256 bytes (SSE2, bits: 2 KB) for each value. May throw what
+/// extract() may.
 template <class Rows = DescriptorRows, class Threads = unsigned>
 [[nodiscard]] Status nearest(const Rows& queries, const Rows& database, std::size_t k, std::vector<Match>& out,
                              Threads&& threads = 1u) {
@@ -149,7 +153,7 @@ template <class Rows = DescriptorRows, class Threads = unsigned>
 /// pass over all pairs gives both directions.
 ///
 /// Formats of rows, `threads`, statuses, the rows that take part and cost: as for nearest(). Allocates `out`, 8 bytes
-/// for each row of the source, and for each row of the target and each thread; for floats what nearest() does besides.
+/// for each row of the source, and for each row of the target and each thread; besides what nearest() does.
 template <class Rows = DescriptorRows, class Threads = unsigned>
 [[nodiscard]] Status reciprocal_correspondences(const Rows& source, const Rows& target, std::vector<MatchedPair>& out,
                                                 Threads&& threads = 1u) {
@@ -195,8 +199,8 @@ template <class Rows = DescriptorRows, class Threads = unsigned>
 ///          rows that take part has no second nearest, and there is no pair: nothing says that one would be right
 ///
 /// Formats of rows, `threads`, the rows that take part and cost: as for nearest(). Statuses: bad_rows, as there, and
-/// bad_option (ratio); `out` is empty then. Allocates `out`, 16 bytes for each row of the source, and for floats what
-/// nearest() does besides.
+/// bad_option (ratio); `out` is empty then. Allocates `out`, 16 bytes for each row of the source, and what nearest()
+/// does besides.
 template <class Rows = DescriptorRows, class Threads = unsigned>
 [[nodiscard]] Status ratio_correspondences(const Rows& source, const Rows& target, float ratio,
                                            std::vector<MatchedPair>& out, Threads&& threads = 1u) {

@@ -66,8 +66,8 @@ inline namespace SHORTSHOT_TYPES {
 ///     };
 ///
 /// compare() gives an integer or a float that is the larger the farther away: a sum of squares saves the root of each
-/// pair. It is less than the largest one of its type; a row for which it is that, or NaN, is nobody's match. ByteRows
-/// and BitRows are made like that, and rows of floats (DescriptorRows) compared faster, by matrix products.
+/// pair. It is less than the largest one of its type; a row for which it is that, or NaN, is nobody's match. The
+/// library's own rows are made like that, and compared faster than pair by pair.
 template <class Rows>
 inline constexpr bool is_row_format =
     std::conjunction<detail::HasCount<Rows>, detail::HasStatus<Rows>, detail::HasFits<Rows>,

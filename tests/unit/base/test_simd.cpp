@@ -82,6 +82,14 @@ TEST_CASE("simd: lanes from a function, bits there and back, products of 31 bits
   for (std::size_t k = 0; k < lanes; ++k) CHECK(product[k] == a[k] * b[k]);
 }
 
+TEST_CASE("simd: a lane of either mask") {
+  for (std::uint32_t a = 0; a < 1u << lanes; ++a) {
+    const std::uint32_t b = a * 5u % (1u << lanes);
+    CHECK(set_of(mask_of(a) | mask_of(b)) == (a | b));
+    CHECK(set_of(mask_of(a) & mask_of(b)) == (a & b));
+  }
+}
+
 TEST_CASE("simd: numbers differ, zeros do not, and NaN differs from itself") {
   const float tiny = 1e-45f;
   const auto differ = [](float a, float b) { return any(simd::all(a) != simd::all(b)); };

@@ -1,4 +1,5 @@
-// Rows of bytes, of bits, and in a format of one's own are matched as rows of floats are: next to a double loop.
+// Rows of bytes, of nibbles, of bits, and in a format of one's own are matched as rows of floats are: next to a double
+// loop.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -82,8 +83,45 @@ struct OfBytes {
   }
 };
 
+/// A row like one of `kinds`, which are the same for all sets: as it is, or with some bytes changed, at its end or
+/// anywhere; one in eight is the opposite of another.
+void append_variant(Random& random, std::size_t kinds, std::size_t size, std::vector<std::uint8_t>& bytes) {
+  Random kind(1000 + static_cast<std::uint32_t>(random.below(kinds)));
+  const std::size_t variant = random.below(8);
+  const std::size_t changed = random.below(size);
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::uint8_t byte = kind.byte();
+    const bool changes = variant == 1 ? i >= changed : variant > 5 && i % 7 == changed % 7;
+    bytes.push_back(changes ? random.byte() : static_cast<std::uint8_t>(variant == 0 ? 255 - byte : byte));
+  }
+}
+
+struct OfNibbles {
+  static constexpr std::size_t size = 95;  // 190 numbers: chunks, and a part of one
+  std::vector<std::uint8_t> bytes;
+  [[nodiscard]] ss::NibbleRows view(const Status* status) const {
+    return {bytes.data(), bytes.size() / size, size, 0.02f, status};
+  }
+  static float distance(const OfNibbles& a, std::size_t i, const OfNibbles& b, std::size_t k) {
+    std::uint32_t sum = 0;
+    for (std::size_t v = 0; v < size; ++v) {
+      const int of_a = a.bytes[i * size + v], of_b = b.bytes[k * size + v];
+      const int low = of_a % 16 - of_b % 16, high = of_a / 16 - of_b / 16;
+      sum += static_cast<std::uint32_t>(low * low + high * high);
+    }
+    return 0.02f * std::sqrt(static_cast<float>(sum));
+  }
+  static OfNibbles make(std::uint32_t seed, std::size_t count) {
+    Random random(seed);
+    OfNibbles rows;
+    for (std::size_t row = 0; row < count; ++row) append_variant(random, count, size, rows.bytes);
+    return rows;
+  }
+};
+
+template <std::size_t Size>
 struct OfBits {
-  static constexpr std::size_t size = 11;
+  static constexpr std::size_t size = Size;
   std::vector<std::uint8_t> bytes;
   [[nodiscard]] ss::BitRows view(const Status* status) const {
     return {bytes.data(), bytes.size() / size, size, status};
@@ -101,7 +139,7 @@ struct OfBits {
   static OfBits make(std::uint32_t seed, std::size_t count) {
     Random random(seed);
     OfBits rows;
-    for (std::size_t i = 0; i < count * size; ++i) rows.bytes.push_back(random.byte());
+    for (std::size_t row = 0; row < count; ++row) append_variant(random, count, size, rows.bytes);
     return rows;
   }
 };
@@ -185,11 +223,12 @@ void require_as_defined(std::size_t count, std::size_t other_count, std::size_t 
 }  // namespace
 
 TEST_CASE_TEMPLATE("match: any format, as a sort by distance has it, ties and all, on any number of threads", Of,
-                   OfFloats, OfBytes, OfBits, OfPlaces) {
+                   OfFloats, OfBytes, OfNibbles, OfBits<11>, OfBits<70>, OfPlaces) {
   require_as_defined<Of>(1, 1, 1);
   require_as_defined<Of>(5, 2, 4);
   require_as_defined<Of>(300, 250, 3);
   require_as_defined<Of>(129, 400, 1);
+  require_as_defined<Of>(40, 1100, 2);
 }
 
 TEST_CASE("match: the ratio of the two nearest") {

@@ -77,6 +77,22 @@ TEST_CASE("packed rows: the largest distance of bytes that there can be") {
   CHECK((out[0].row == 0 && out[0].distance == ss::ByteRows::step * std::sqrt(4294966275.0f)));
 }
 
+TEST_CASE("packed rows: the longest rows of nibbles and of bits") {
+  const std::size_t size = 66051;
+  std::vector<std::uint8_t> bytes(3 * size, 255);
+  std::fill_n(bytes.begin(), size, std::uint8_t{0});
+  bytes[2 * size + 7] = 0;
+  std::vector<ss::Match> out;
+  REQUIRE(ss::nearest(ss::NibbleRows{bytes.data(), 1, size, 1.0f, nullptr},
+                      ss::NibbleRows{bytes.data() + size, 2, size, 1.0f, nullptr}, 2, out) == Status::ok);
+  CHECK((out[0].row == 1 && out[0].distance == std::sqrt(66050.0f * 450.0f)));
+  CHECK((out[1].row == 0 && out[1].distance == std::sqrt(66051.0f * 450.0f)));
+  REQUIRE(ss::nearest(ss::BitRows{bytes.data(), 1, size, nullptr}, ss::BitRows{bytes.data() + size, 2, size, nullptr},
+                      2, out) == Status::ok);
+  CHECK((out[0].row == 1 && out[0].distance == 8.0f * 66050.0f));
+  CHECK((out[1].row == 0 && out[1].distance == 8.0f * 66051.0f));
+}
+
 TEST_CASE("match: the distance of two rows of floats is what matching says") {
   for (const std::size_t size : {1u, 7u, 8u, 33u, 336u}) {
     const Rows pair = random_rows(7, 2, size);
