@@ -7776,151 +7776,203 @@ template <class D, int Group>
 }  // namespace shortshot
 #endif  // SHORTSHOT_STORE_BINARY_HPP
 
-// shortshot/store/nibbles.hpp: a descriptor in four bits a value, an eighth of its floats, and the distance between
-// such.
-#ifndef SHORTSHOT_STORE_NIBBLES_HPP
-#define SHORTSHOT_STORE_NIBBLES_HPP
+// shortshot/store/coded.hpp: a descriptor in 8, 4 or 3 bits a value, and the distance between such.
+#ifndef SHORTSHOT_STORE_CODED_HPP
+#define SHORTSHOT_STORE_CODED_HPP
+
+// shortshot/store/code_distance.hpp: numbers of a few bits one behind the other, and the squared distance of two rows
+// of them.
+#ifndef SHORTSHOT_STORE_CODE_DISTANCE_HPP
+#define SHORTSHOT_STORE_CODE_DISTANCE_HPP
+
+// shortshot/base/simd_halves.hpp: two numbers in a register of 32 bits: the DSP instructions of Cortex-M4 and later.
+#ifndef SHORTSHOT_BASE_SIMD_HALVES_HPP
+#define SHORTSHOT_BASE_SIMD_HALVES_HPP
+
+#if defined(__ARM_FEATURE_DSP) && defined(__ARM_FEATURE_SIMD32) && (defined(__clang__) || __GNUC__ >= 10)
+#define SHORTSHOT_HAS_HALVES
+#include <arm_acle.h>
+#endif
+
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
+
+/// Is it worth a loop of its own?
+#if defined(SHORTSHOT_HAS_HALVES)
+inline constexpr bool has_halves = true;
+#else
+inline constexpr bool has_halves = false;
+#endif
+
+/// `sum` and the squared differences of the four bytes of a and b.
+[[nodiscard, gnu::always_inline]] inline std::uint32_t add_squared_differences(std::uint32_t a, std::uint32_t b,
+                                                                               std::uint32_t sum) noexcept {
+#if defined(SHORTSHOT_HAS_HALVES)
+  const auto even = static_cast<std::int32_t>(__usub16(__uxtb16(a), __uxtb16(b)));
+  const auto odd = static_cast<std::int32_t>(__usub16(__uxtb16(a >> 8), __uxtb16(b >> 8)));
+  const std::int32_t half = __smlad(even, even, static_cast<std::int32_t>(sum));  // sums wrap, as unsigned ones do
+  return static_cast<std::uint32_t>(__smlad(odd, odd, half));
+#else
+  for (int shift = 0; shift < 32; shift += 8) {
+    const auto difference = static_cast<std::int32_t>(a >> shift & 255u) - static_cast<std::int32_t>(b >> shift & 255u);
+    sum += static_cast<std::uint32_t>(difference * difference);
+  }
+  return sum;
+#endif
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd
+#endif  // SHORTSHOT_BASE_SIMD_HALVES_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Number `place` of those of `Bits` bits that lie one behind the other, the lowest bits first.
+template <int Bits>
+[[nodiscard, gnu::always_inline]] inline unsigned number_at(const std::uint8_t* bytes, std::size_t place) noexcept {
+  constexpr unsigned mask = (1u << Bits) - 1u;
+  const std::size_t bit = place * static_cast<std::size_t>(Bits);
+  unsigned number = static_cast<unsigned>(bytes[bit / 8]) >> bit % 8;
+  if constexpr (8 % Bits != 0) {
+    if (bit % 8 + static_cast<std::size_t>(Bits) > 8)
+      number |= static_cast<unsigned>(bytes[bit / 8 + 1]) << (8 - bit % 8);
+  }
+  return number & mask;
+}
+
+/// The sum of squared differences of the numbers in `Width` bytes, in a form that compilers turn into lanes at -O2,
+/// too.
+template <int Bits, std::size_t Width>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t squared_piece_distance(const std::uint8_t* a,
+                                                                              const std::uint8_t* b) noexcept {
+  std::int32_t sum = 0;
+  if constexpr (Bits == 3) {
+    for (std::size_t k = 0; k < Width * 8 / 3; ++k) {
+      const int difference = static_cast<int>(number_at<3>(a, k)) - static_cast<int>(number_at<3>(b, k));
+      sum += difference * difference;
+    }
+  } else {
+    constexpr unsigned mask = (1u << Bits) - 1u;
+    for (std::size_t k = 0; k < Width; ++k) {
+      const auto low = static_cast<std::int16_t>((a[k] & mask) - (b[k] & mask));
+      sum += low * low;
+    }
+    for (std::size_t k = 0; Bits == 4 && k < Width; ++k) {
+      const auto high = static_cast<std::int16_t>((a[k] >> 4) - (b[k] >> 4));
+      sum += high * high;
+    }
+  }
+  return static_cast<std::uint32_t>(sum);
+}
+
+/// The sum of squared differences of the numbers of 8, 4 or 3 bits in `size` bytes; of up to 66051 numbers it fits.
+template <int Bits>
+[[nodiscard]] inline std::uint32_t squared_code_distance(const std::uint8_t* a, const std::uint8_t* b,
+                                                         std::size_t size) noexcept {
+  static_assert(Bits == 8 || Bits == 4 || Bits == 3, "whole numbers in every piece");
+  std::uint32_t sum = 0;
+  std::size_t i = 0;
+  if constexpr (simd::has_halves && Bits != 3) {
+    for (; i + 4 <= size; i += 4) {
+      std::uint32_t of_a, of_b;
+      std::memcpy(&of_a, a + i, 4);
+      std::memcpy(&of_b, b + i, 4);
+      if constexpr (Bits == 8) {
+        sum = simd::add_squared_differences(of_a, of_b, sum);
+      } else {
+        constexpr std::uint32_t low = 0x0F0F0F0Fu;
+        sum = simd::add_squared_differences(of_a & low, of_b & low, sum);
+        sum = simd::add_squared_differences(of_a >> 4 & low, of_b >> 4 & low, sum);
+      }
+    }
+  } else {
+    constexpr std::size_t width = Bits == 3 ? 3 : Bits == 4 ? 16 : 32;
+    for (; i + width <= size; i += width) sum += squared_piece_distance<Bits, width>(a + i, b + i);
+  }
+  const std::size_t whole = i * 8 / static_cast<std::size_t>(Bits);
+  for (std::size_t k = whole; k < size * 8 / static_cast<std::size_t>(Bits); ++k) {
+    const int difference = static_cast<int>(number_at<Bits>(a, k)) - static_cast<int>(number_at<Bits>(b, k));
+    sum += static_cast<std::uint32_t>(difference * difference);
+  }
+  return sum;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_CODE_DISTANCE_HPP
+
+// shortshot/store/code_scale.hpp: how fine the steps of coded descriptors are, for each descriptor.
+#ifndef SHORTSHOT_STORE_CODE_SCALE_HPP
+#define SHORTSHOT_STORE_CODE_SCALE_HPP
 
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
 
-/// Steps in 1 for D in nibbles: for the published descriptors, whose values are seldom above 15 / 32. Specialize it for
-/// your own, as below.
+/// Steps in 1 for the values of D in codes of `Bits` bits. By default for the published descriptors: 512 in 8 bits; in
+/// 4 bits 32, their values are seldom above 15 / 32; in 3 bits so many that the same values are cut off as in 4 bits.
+/// Specialize it for your own, as below.
+template <class D, int Bits>
+inline constexpr int code_scale = Bits == 8 ? 512 : 32;
 template <class D>
-inline constexpr int nibble_scale = 32;
-template <>
-inline constexpr int nibble_scale<ShapeColor95> = 50;
-template <>
-inline constexpr int nibble_scale<RoomColor95> = 50;
-template <>
-inline constexpr int nibble_scale<ShapeColor32> = 40;
-template <>
-inline constexpr int nibble_scale<HeightShape96> = 60;
-template <>
-inline constexpr int nibble_scale<ColorRings27> = 50;
+inline constexpr int code_scale<D, 3> = (7 * code_scale<D, 4> + 7) / 15;
 
-/// A descriptor D of D::size values, each as a whole multiple of `step`: 0 to 15, or -7 to 7 in parts whose values have
-/// signs (stored as 1 to 15); what lies beyond is cut off. A trivial type of alignment 1: 95 bytes for ShapeColor95.
+/// Compact descriptors in 4 bits: measured.
+template <>
+inline constexpr int code_scale<ShapeColor95, 4> = 50;
+template <>
+inline constexpr int code_scale<RoomColor95, 4> = 50;
+template <>
+inline constexpr int code_scale<ShapeColor32, 4> = 40;
+template <>
+inline constexpr int code_scale<HeightShape96, 4> = 60;
+template <>
+inline constexpr int code_scale<ColorRings27, 4> = 50;
+
+/// And in 8 bits: no value is cut off. The whole is at least sqrt(1 + 1.5^2) = 1.80 times as long as where points are,
+/// and as 1.5 for colors: values without a sign are below 1 / 1.8 = 0.56 and 0.866 / 1.5 = 0.58, those with one below
+/// 0.6 / 1.8 = 0.34, and 127 / 360 is 0.35. HeightShape96 may have a 1.
+template <>
+inline constexpr int code_scale<ShapeColor95, 8> = 360;
+template <>
+inline constexpr int code_scale<RoomColor95, 8> = 360;
+template <>
+inline constexpr int code_scale<ShapeColor32, 8> = 360;
+template <>
+inline constexpr int code_scale<HeightShape96, 8> = 255;
+template <>
+inline constexpr int code_scale<ColorRings27, 8> = 360;
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+#endif  // SHORTSHOT_STORE_CODE_SCALE_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// A descriptor D of D::size values, each as a whole multiple of `step`, in `Bits` bits (8, 4 or 3): from 0 to
+/// 2^Bits - 1 (255, 15, 7), or in parts whose values have signs from -m to m with m = 2^(Bits - 1) - 1 (127, 7, 3),
+/// which are stored as 1 to 2 m + 1. What lies beyond is cut off. A trivial type of alignment 1.
 ///
-/// Layout: value 2 i in the low half of byte i, value 2 i + 1 in the high one; what is left over at the end is 0.
+/// Layout: the bits of value i are those from Bits * i on, the lowest ones of a byte first; what is left over at the
+/// end is 0. So is value 2 i of 4 bits the low half of byte i.
 ///
-/// Steps are 1 / `Scale`; nibble_scale<D> cuts off few values.
-template <class D, int Scale = nibble_scale<D>>
-struct NibbleDescriptor {
-  static_assert(Scale >= 1 && Scale <= 65536, "NibbleDescriptor<D, Scale> supports scales from 1 to 65536");
-  static_assert(D::size >= 1 && D::size <= 65536, "NibbleDescriptor<D> supports 1 to 65536 values");
+/// Steps are 1 / `Scale`; code_scale<D, Bits> cuts off few values.
+template <class D, int Bits, int Scale = code_scale<D, Bits>>
+struct CodedDescriptor {
+  static_assert(Bits == 8 || Bits == 4 || Bits == 3, "CodedDescriptor<D, Bits> supports 8, 4 or 3 bits a value");
+  static_assert(Scale >= 1 && Scale <= 65536, "CodedDescriptor<D, Bits, Scale> supports scales from 1 to 65536");
+  static_assert(D::size >= 1 && D::size <= 66051, "CodedDescriptor<D, Bits> supports 1 to 66051 values");
+  static_assert(std::uint64_t{66051} * 255 * 255 <= 0xFFFFFFFFu, "squared_distance() cannot overflow");
   static constexpr int size = D::size;
-  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(D::size) + 1) / 2;
+  static constexpr int bits = Bits;
+  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(D::size) * Bits + 7) / 8;
   /// The L2 distance of two descriptors is step * sqrt(squared_distance(a, b)).
   static constexpr float step = 1.0f / static_cast<float>(Scale);
   std::uint8_t bytes[size_bytes];
 };
 
-}  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// What is stored of a value: the nearest whole number of steps, halves away from 0. NaN becomes 0 steps. Compared
-/// before it is converted.
-[[nodiscard]] inline unsigned nibble_of(float value, float scale, bool has_sign) noexcept {
-  const float half_steps = unfused(value * (2.0f * scale));
-  const float high = half_steps < 0.0f ? -half_steps : half_steps;
-  const float most = has_sign ? 14.0f : 30.0f;
-  const auto steps = high < most ? (static_cast<std::int32_t>(high) + 1) / 2 : high >= most ? (has_sign ? 7 : 15) : 0;
-  if (!has_sign) return half_steps > 0.0f ? static_cast<unsigned>(steps) : 0u;
-  return static_cast<unsigned>(half_steps < 0.0f ? 8 - steps : 8 + steps);
-}
-
-/// The sum of squared differences of the halves of `size` bytes, up to 2^22. In pieces of a fixed length, which
-/// compilers turn into lanes at -O2, too.
-[[nodiscard]] inline std::uint32_t squared_nibble_distance(const std::uint8_t* a, const std::uint8_t* b,
-                                                           std::size_t size) noexcept {
-  constexpr std::size_t width = 16;
-  std::uint32_t sum = 0;
-  const auto add = [&](const std::uint8_t* of_a, const std::uint8_t* of_b) {
-    std::int32_t part = 0;
-    for (std::size_t k = 0; k < width; ++k) {
-      const auto low = static_cast<std::int16_t>((of_a[k] & 15) - (of_b[k] & 15));
-      part += low * low;
-    }
-    for (std::size_t k = 0; k < width; ++k) {
-      const auto high = static_cast<std::int16_t>((of_a[k] >> 4) - (of_b[k] >> 4));
-      part += high * high;
-    }
-    sum += static_cast<std::uint32_t>(part);
-  };
-  std::size_t i = 0;
-  for (; i + width <= size; i += width) add(a + i, b + i);
-  if (i < size) {
-    std::uint8_t rest_of_a[width] = {};
-    std::uint8_t rest_of_b[width] = {};
-    std::memcpy(rest_of_a, a + i, size - i);
-    std::memcpy(rest_of_b, b + i, size - i);
-    add(rest_of_a, rest_of_b);
-  }
-  return sum;
-}
-
-template <class Voting, class... Parts, std::size_t... I>
-[[nodiscard]] constexpr bool has_sign_at(Descriptor<Voting, Parts...>, std::index_sequence<I...>, int value) noexcept {
-  using D = Descriptor<Voting, Parts...>;
-  return ((Parts::has_signs && value >= D::offset(I) && value < D::offset(I) + Parts::size) || ...);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// The D::size values of a descriptor as nibbles. No allocation, no error, reentrant; the same bytes on every machine.
-/// In place, too: `out` may lie where `values` begin, as for bytes.
-template <class D, int Scale>
-void quantize(const float* values, NibbleDescriptor<D, Scale>& out) noexcept {
-  constexpr auto parts = std::make_index_sequence<static_cast<std::size_t>(D::parts)>{};
-  constexpr auto scale = static_cast<float>(Scale);
-  std::uint8_t* const bytes = out.bytes;  // of a type that may alias the floats
-  for (int i = 0; i < D::size; i += 2) {
-    unsigned byte = detail::nibble_of(values[i], scale, detail::has_sign_at(D{}, parts, i));
-    if (i + 1 < D::size) byte |= detail::nibble_of(values[i + 1], scale, detail::has_sign_at(D{}, parts, i + 1)) << 4;
-    bytes[i / 2] = static_cast<std::uint8_t>(byte);
-  }
-}
-
-/// The values that nibbles stand for, D::size floats.
-template <class D, int Scale>
-void dequantize(const NibbleDescriptor<D, Scale>& nibbles, float* values) noexcept {
-  constexpr auto parts = std::make_index_sequence<static_cast<std::size_t>(D::parts)>{};
-  for (int i = 0; i < D::size; ++i) {
-    const int stored = i % 2 == 0 ? nibbles.bytes[i / 2] & 15 : nibbles.bytes[i / 2] >> 4;
-    const int steps = detail::has_sign_at(D{}, parts, i) ? stored - 8 : stored;
-    values[i] = static_cast<float>(steps) * NibbleDescriptor<D, Scale>::step;
-  }
-}
-
-/// The squared L2 distance in steps, exact: an integer from 0 to D::size * 225. The order of distances needs no root.
-template <class D, int Scale>
-[[nodiscard]] std::uint32_t squared_distance(const NibbleDescriptor<D, Scale>& a,
-                                             const NibbleDescriptor<D, Scale>& b) noexcept {
-  return detail::squared_nibble_distance(a.bytes, b.bytes, sizeof a.bytes);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_STORE_NIBBLES_HPP
-
-// shortshot/store/quantize.hpp: a descriptor in one byte a value, a quarter of its floats, and the distance between
-// such bytes.
-#ifndef SHORTSHOT_STORE_QUANTIZE_HPP
-#define SHORTSHOT_STORE_QUANTIZE_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// A descriptor D of D::size values, each as its multiple of `step`: 0 to 255, so that values from 255/512 on are all
-/// the same. A trivial type of alignment 1: 336 bytes for SCSH-336.
+/// One byte a value, a quarter of its floats: 336 bytes for SCSH-336, with steps of 1/512 from 0 to 255/512.
 ///
 /// A value below that comes back within half a step, 1/1024 (and 6e-11 for rounding), and so the distance of two
 /// descriptors, at the worst, within sqrt(D::size) / 512. What it costs in practice: of 12,630 key points of generated
@@ -7931,30 +7983,61 @@ inline namespace SHORTSHOT_TYPES {
 ///
 /// SHOT-352 and CSHOT-1344 have peaks above 1/2 (one value in 4,000 and in 200,000). Nearest neighbors are kept as
 /// well (95 % and 98 %), but the distance from a descriptor with such a peak can be too small by 0.4 and 0.2.
-template <class D>
-struct ByteDescriptor {
-  static_assert(D::size >= 1 && D::size <= 66051, "ByteDescriptor<D> supports 1 to 66051 values");
-  static_assert(std::uint64_t{D::size} * 255 * 255 <= 0xFFFFFFFFu, "squared_distance() cannot overflow");
-  static constexpr int size = D::size;
-  static constexpr std::size_t size_bytes = D::size;
-  /// The L2 distance of two descriptors is step * sqrt(squared_distance(a, b)). A power of two: products are exact.
-  static constexpr float step = 1.0f / 512.0f;
-  std::uint8_t values[size_bytes];
-};
+///
+/// Compact descriptors have steps of 1/360, and no value is cut off.
+template <class D, int Scale = code_scale<D, 8>>
+using ByteDescriptor = CodedDescriptor<D, 8, Scale>;
+
+/// Half a byte a value, an eighth of its floats: 95 bytes for ShapeColor95.
+template <class D, int Scale = code_scale<D, 4>>
+using NibbleDescriptor = CodedDescriptor<D, 4, Scale>;
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
 
 namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
+
+/// May value i of D be below 0?
+template <class D>
+struct SignsOf {
+  [[nodiscard, gnu::always_inline]] static constexpr bool at(int) noexcept { return false; }
+};
+template <class Voting, class... Parts>
+struct SignsOf<Descriptor<Voting, Parts...>> {
+  [[nodiscard, gnu::always_inline]] static constexpr bool at(int value) noexcept {
+    int part = 0;
+    bool has_sign = false;
+    ((has_sign = has_sign || (Parts::has_signs && value >= Descriptor<Voting, Parts...>::offset(part) &&
+                              value < Descriptor<Voting, Parts...>::offset(part) + Parts::size),
+      ++part),
+     ...);
+    return has_sign;
+  }
+};
+
+}  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
 
-/// The number of whole steps that is nearest, halves upwards. Compared before it is converted, and so that NaN becomes
-/// 0.
-[[nodiscard]] inline std::uint8_t byte_of(float value) noexcept {
-  const float half_steps = unfused(value * 1024.0f);
-  if (!(half_steps > 0.0f)) return 0;
-  const std::int32_t whole_steps = half_steps < 510.0f ? static_cast<std::int32_t>(half_steps + 1.0f) / 2 : 255;
-  return static_cast<std::uint8_t>(whole_steps);
+/// What is stored of a value: the nearest whole number of steps (of the product, a float), halves away from 0. NaN
+/// becomes 0 steps. Compared before it is converted.
+template <int Bits>
+[[nodiscard]] inline unsigned code_of(float value, float scale, bool has_sign) noexcept {
+  constexpr int zero = 1 << (Bits - 1);  // as it is stored where there are signs
+  const float half_steps = unfused(value * (2.0f * scale));
+  const float high = half_steps < 0.0f ? -half_steps : half_steps;
+  const int most = has_sign ? zero - 1 : 2 * zero - 1;
+  const auto limit = static_cast<float>(2 * most);
+  const int steps = high < limit ? (static_cast<std::int32_t>(high) + 1) / 2 : high >= limit ? most : 0;
+  if (!has_sign) return half_steps > 0.0f ? static_cast<unsigned>(steps) : 0u;
+  return static_cast<unsigned>(half_steps < 0.0f ? zero - steps : zero + steps);
+}
+
+/// The whole number of steps that value i is stored as.
+template <class D, int Bits, int Scale>
+[[nodiscard, gnu::always_inline]] inline int steps_at(const CodedDescriptor<D, Bits, Scale>& coded, int i) noexcept {
+  const auto stored = static_cast<int>(number_at<Bits>(coded.bytes, static_cast<std::size_t>(i)));
+  return SignsOf<D>::at(i) ? stored - (1 << (Bits - 1)) : stored;
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -7963,35 +8046,243 @@ inline namespace SHORTSHOT_CODE {
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
-/// The D::size values of a descriptor as bytes. NaN and what is negative become 0, all from 255/512 on, infinity too,
-/// 255. No allocation, no error, reentrant; the same bytes on every machine.
+/// The D::size values of a descriptor as codes. NaN becomes 0. No allocation, no error, reentrant; the same bytes on
+/// every machine.
 ///
-/// In place, too: `out` may lie where `values` begin. Byte i is written when value i has been read, and lies before the
-/// values that have not. A union of both needs no second buffer:
+/// In place, too: `out` may lie where `values` begin. A byte is written when its values have been read, and lies before
+/// those that have not. A union of both needs no second buffer:
 ///
 ///     union { float values[D::size]; ByteDescriptor<D> bytes; } d;
 ///     if (describe_at<D>(cloud, search, index, 0.04f, workspace, d.values) == Status::ok) quantize(d.values, d.bytes);
-template <class D>
-void quantize(const float* values, ByteDescriptor<D>& out) noexcept {
-  std::uint8_t* const bytes = out.values;  // of a type that may alias the floats
-  for (std::size_t i = 0; i < sizeof out.values; ++i) bytes[i] = detail::byte_of(values[i]);
+template <class D, int Bits, int Scale>
+void quantize(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept {
+  std::uint8_t* byte = out.bytes;  // of a type that may alias the floats
+  unsigned waiting = 0;
+  int count = 0;  // of bits that wait
+  for (int i = 0; i < D::size; ++i) {
+    waiting |= detail::code_of<Bits>(values[i], static_cast<float>(Scale), detail::SignsOf<D>::at(i)) << count;
+    for (count += Bits; count >= 8 || (count > 0 && i == D::size - 1); count -= 8) {
+      *byte++ = static_cast<std::uint8_t>(waiting & 255u);
+      waiting >>= 8;
+    }
+  }
 }
 
-/// The squared L2 distance of the bytes, exact: an integer from 0 to D::size * 255^2, for which 32 bits are enough. The
-/// order of distances needs no root.
-template <class D>
-[[nodiscard]] std::uint32_t squared_distance(const ByteDescriptor<D>& a, const ByteDescriptor<D>& b) noexcept {
-  std::uint32_t sum = 0;
-  for (std::size_t i = 0; i < sizeof a.values; ++i) {
-    const std::int32_t difference = std::int32_t{a.values[i]} - std::int32_t{b.values[i]};
-    sum += static_cast<std::uint32_t>(difference * difference);
+/// The values that codes stand for, D::size floats. No allocation, no error, reentrant; the same bits on every machine.
+template <class D, int Bits, int Scale>
+void dequantize(const CodedDescriptor<D, Bits, Scale>& coded, float* values) noexcept {
+  for (int i = 0; i < D::size; ++i) {
+    values[i] = static_cast<float>(detail::steps_at(coded, i)) * CodedDescriptor<D, Bits, Scale>::step;
   }
-  return sum;
+}
+
+/// The squared L2 distance in steps, exact: an integer from 0 to D::size * (2^Bits - 1)^2, for which 32 bits are
+/// enough. The order of distances needs no root.
+template <class D, int Bits, int Scale>
+[[nodiscard]] std::uint32_t squared_distance(const CodedDescriptor<D, Bits, Scale>& a,
+                                             const CodedDescriptor<D, Bits, Scale>& b) noexcept {
+  return detail::squared_code_distance<Bits>(a.bytes, b.bytes, sizeof a.bytes);
 }
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
-#endif  // SHORTSHOT_STORE_QUANTIZE_HPP
+#endif  // SHORTSHOT_STORE_CODED_HPP
+
+// shortshot/store/half.hpp: a descriptor in 16-bit floats, half of its floats.
+#ifndef SHORTSHOT_STORE_HALF_HPP
+#define SHORTSHOT_STORE_HALF_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// A descriptor D of D::size values as IEEE 754's binary16 (11 bits of precision: a value of a descriptor comes back
+/// within 1/4096 of itself, or 3e-8). A trivial type of alignment 2. Distances are those of the floats that they stand
+/// for.
+template <class D>
+struct HalfDescriptor {
+  static_assert(D::size >= 1 && D::size <= 66051, "HalfDescriptor<D> supports 1 to 66051 values");
+  static constexpr int size = D::size;
+  static constexpr std::size_t size_bytes = 2 * static_cast<std::size_t>(D::size);
+  std::uint16_t values[D::size];
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// The nearest half, ties to even, as IEEE 754 rounds; from 65520 on infinity. NaN stays NaN (a quiet one). In
+/// integers: neither compilers nor CPUs have a say.
+[[nodiscard]] inline std::uint16_t half_of(float value) noexcept {
+  const std::uint32_t bits = math::bits_of(value);
+  const std::uint32_t sign = bits >> 16 & 0x8000u;
+  const std::uint32_t high = bits & 0x7FFFFFFFu;
+  if (high >= 0x7F800000u) return static_cast<std::uint16_t>(sign | (high > 0x7F800000u ? 0x7E00u : 0x7C00u));
+  if (high >= 0x477FF000u) return static_cast<std::uint16_t>(sign | 0x7C00u);
+  std::uint32_t whole = high - 0x38000000u;  // the exponent's bias is 112 less
+  std::uint32_t shift = 13;
+  if (high < 0x38800000u) {  // below 2^-14: multiples of 2^-24
+    shift = 126 - (high >> 23);
+    if (shift > 25) return static_cast<std::uint16_t>(sign);
+    whole = (high & 0x7FFFFFu) | 0x800000u;
+  }
+  const std::uint32_t half_unit = (1u << (shift - 1)) - 1u + (whole >> shift & 1u);
+  return static_cast<std::uint16_t>(sign | (whole + half_unit) >> shift);
+}
+
+/// The float that a half stands for, exactly.
+[[nodiscard]] inline float float_of_half(std::uint16_t half) noexcept {
+  const std::uint32_t sign = std::uint32_t{half & 0x8000u} << 16;
+  std::uint32_t high = half & 0x7FFFu;
+  if (high >= 0x7C00u) return math::float_of(sign | 0x7F800000u | (high & 0x3FFu) << 13);
+  if (high >= 0x400u) return math::float_of(sign | ((high << 13) + 0x38000000u));
+  if (high == 0) return math::float_of(sign);
+  std::uint32_t exponent = 113;  // of 2^-14
+  for (; (high & 0x400u) == 0; high <<= 1) --exponent;
+  return math::float_of(sign | exponent << 23 | (high & 0x3FFu) << 13);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// The D::size values of a descriptor as halves, each the nearest one (ties to even). No allocation, no error,
+/// reentrant; the same bits on every machine, whatever it does with subnormal floats.
+template <class D>
+void quantize(const float* values, HalfDescriptor<D>& out) noexcept {
+  for (int i = 0; i < D::size; ++i) out.values[i] = detail::half_of(values[i]);
+}
+
+/// The floats that halves stand for.
+template <class D>
+void dequantize(const HalfDescriptor<D>& halves, float* values) noexcept {
+  for (int i = 0; i < D::size; ++i) values[i] = detail::float_of_half(halves.values[i]);
+}
+
+/// The squared L2 distance of the floats that halves stand for, summed up as squared_l2_distance() does: what matching
+/// compares.
+template <class D>
+[[nodiscard]] float squared_distance(const HalfDescriptor<D>& a, const HalfDescriptor<D>& b) noexcept {
+  float sums[8] = {};
+  for (int i = 0; i < D::size; ++i) {
+    const float difference = detail::float_of_half(a.values[i]) - detail::float_of_half(b.values[i]);
+    sums[i % 8] += extend::unfused(difference * difference);
+  }
+  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_STORE_HALF_HPP
+
+// shortshot/store/sum_bits.hpp: a descriptor in bits that each say whether a sum of a few of its values is positive.
+#ifndef SHORTSHOT_STORE_SUM_BITS_HPP
+#define SHORTSHOT_STORE_SUM_BITS_HPP
+
+// shortshot/store/draws.hpp: random numbers that are the same everywhere, made while compiling.
+#ifndef SHORTSHOT_STORE_DRAWS_HPP
+#define SHORTSHOT_STORE_DRAWS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
+
+/// The generator of std::mt19937 (M. Matsumoto, T. Nishimura: Mersenne Twister, ACM TOMACS 8, 1998), for constants.
+class MersenneTwister {
+ public:
+  constexpr explicit MersenneTwister(std::uint32_t seed) noexcept : state_{seed} {
+    for (std::uint32_t i = 1; i < count; ++i) {
+      const std::uint32_t before = state_[i - 1];
+      state_[i] = 1812433253u * (before ^ before >> 30) + i;
+    }
+  }
+  constexpr std::uint32_t operator()() noexcept {
+    const std::size_t next = (at_ + 1) % count;
+    const std::uint32_t joined = (state_[at_] & 0x80000000u) | (state_[next] & 0x7FFFFFFFu);
+    std::uint32_t number = state_[(at_ + 397) % count] ^ joined >> 1 ^ ((joined & 1u) != 0 ? 0x9908B0DFu : 0u);
+    state_[at_] = number;
+    at_ = next;
+    number ^= number >> 11;
+    number ^= number << 7 & 0x9D2C5680u;
+    number ^= number << 15 & 0xEFC60000u;
+    return number ^ number >> 18;
+  }
+
+ private:
+  static constexpr std::size_t count = 624;
+  std::uint32_t state_[count];
+  std::size_t at_ = 0;
+};
+
+/// The first numbers of mt19937 with seed 1, modulo `Size`.
+template <int Size, std::size_t Count>
+struct Draws {
+  std::uint16_t of[Count];
+  constexpr Draws() noexcept : of{} {
+    MersenneTwister next(1);
+    for (std::uint16_t& draw : of) draw = static_cast<std::uint16_t>(next() % static_cast<std::uint32_t>(Size));
+  }
+};
+template <int Size, std::size_t Count>
+inline constexpr Draws<Size, Count> draws{};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_DRAWS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// A descriptor D as `Bits` signs of sparse sums: bit j is bit j % 8 of byte j / 8, and says whether the sum of `Draws`
+/// of its values in nibbles, with the signs -, +, -, +, ..., is above 0. Which values, is drawn once and for all: value
+/// g() % D::size with g an std::mt19937 with seed 1, for one bit after the other. A trivial type of alignment 1.
+///
+/// 352 bits of four draws are 44 bytes, the least that keeps most of what ShapeColor95 finds; 256 bits of six draws are
+/// 32 bytes.
+template <class D, int Bits = 352, int Draws = 4>
+struct SumBits {
+  static_assert(Bits >= 8 && Bits <= 65536 && Bits % 8 == 0, "SumBits<D, Bits> supports whole bytes: 8 to 65536 bits");
+  static_assert(Draws >= 2 && Draws <= 64, "SumBits<D, Bits, Draws> supports 2 to 64 draws for a bit");
+  static constexpr int bits = Bits;
+  static constexpr std::size_t size_bytes = static_cast<std::size_t>(Bits) / 8;
+  std::uint8_t bytes[size_bytes];
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// The bits of a descriptor in nibbles. The same ones on every machine: there is nothing but integers. Codes of parts
+/// with signs count as -7 to 7, the others as 0 to 15. No allocation, no error, reentrant.
+template <class D, int Scale, int Bits, int Draws>
+void binarize(const NibbleDescriptor<D, Scale>& nibbles, SumBits<D, Bits, Draws>& out) noexcept {
+  constexpr auto& draws = detail::draws<D::size, static_cast<std::size_t>(Bits) * Draws>;
+  const std::uint16_t* draw = draws.of;
+  for (std::uint8_t& byte : out.bytes) {
+    unsigned bits = 0;
+    for (int bit = 0; bit < 8; ++bit) {
+      int sum = 0;
+      for (int k = 0; k < Draws; ++k) {
+        const int steps = detail::steps_at(nibbles, *draw++);
+        sum += k % 2 == 0 ? -steps : steps;
+      }
+      if (sum > 0) bits |= 1u << bit;
+    }
+    byte = static_cast<std::uint8_t>(bits);
+  }
+}
+
+/// Number of bits in which two descriptors differ, 0 to Bits.
+template <class D, int Bits, int Draws>
+[[nodiscard, gnu::always_inline]] inline int hamming_distance(const SumBits<D, Bits, Draws>& a,
+                                                              const SumBits<D, Bits, Draws>& b) noexcept {
+  return hamming_distance(a.bytes, b.bytes, sizeof a.bytes);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_STORE_SUM_BITS_HPP
 #endif  // SHORTSHOT_KERNEL_HPP
 
 // shortshot/cloud/view_of.hpp: views of containers of structs, PCL's clouds among them, by their members' names.
@@ -10843,7 +11134,7 @@ struct Comparison<DescriptorRows> {
 #ifndef SHORTSHOT_RECOGNITION_ROW_CODES_HPP
 #define SHORTSHOT_RECOGNITION_ROW_CODES_HPP
 
-// shortshot/recognition/packed_rows.hpp: borrowed rows of bytes, nibbles and bits, which are matched as rows of floats
+// shortshot/recognition/packed_rows.hpp: borrowed rows of codes and of bits, which are matched as rows of floats
 // are. Hosted only.
 //
 // Their distances are integers before they become Match::distance, hence the same on every machine, and ties are
@@ -10854,33 +11145,11 @@ struct Comparison<DescriptorRows> {
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// For up to 66051 bytes. In pieces of a fixed length, which compilers turn into lanes at -O2, too.
-[[nodiscard]] inline std::uint32_t squared_byte_distance(const std::uint8_t* a, const std::uint8_t* b,
-                                                         std::size_t size) noexcept {
-  constexpr std::size_t width = 32;
-  std::uint32_t sum = 0;
-  std::size_t i = 0;
-  for (; i + width <= size; i += width) {
-    std::int32_t part = 0;
-    for (std::size_t k = 0; k < width; ++k) {
-      const auto difference = static_cast<std::int16_t>(a[i + k] - b[i + k]);
-      part += difference * difference;
-    }
-    sum += static_cast<std::uint32_t>(part);
-  }
-  for (; i < size; ++i) {
-    const std::int32_t difference = std::int32_t{a[i]} - std::int32_t{b[i]};
-    sum += static_cast<std::uint32_t>(difference * difference);
-  }
-  return sum;
-}
-
-/// Can rows of bytes at these places be compared? Sums of as many squares as this fit 32 bits.
+/// Can packed rows be compared? Sums of as many squares as this fit 32 bits.
 template <class Rows>
-[[nodiscard, gnu::always_inline]] inline bool fit(const Rows& a, const std::uint8_t* of_a, const Rows& b,
-                                                  const std::uint8_t* of_b) noexcept {
-  return a.size == b.size && a.size > 0 && a.size <= 66051 && (a.count == 0 || of_a != nullptr) &&
-         (b.count == 0 || of_b != nullptr);
+[[nodiscard, gnu::always_inline]] inline bool fit(const Rows& a, const Rows& b) noexcept {
+  return a.size == b.size && a.size > 0 && a.size <= 66051 && (a.count == 0 || a.bytes != nullptr) &&
+         (b.count == 0 || b.bytes != nullptr);
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -10889,51 +11158,31 @@ template <class Rows>
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
 
-/// `count` descriptors of `size` bytes each (1 to 66051), row by row without gaps, as quantize() makes them. Borrowed.
-/// Their distance is the L2 distance of the descriptors, ByteDescriptor's step times the root of the sum of squares.
-struct ByteRows {
-  static constexpr float step = 1.0f / 512.0f;  ///< that of ByteDescriptor<D>, whatever D
-
-  const std::uint8_t* values;  ///< count * size
-  std::size_t count;           ///< number of rows
-  std::size_t size;            ///< bytes in a row
-  const Status* status;        ///< one per row: those that are not ok are left out; null: all are ok
-
-  [[nodiscard, gnu::always_inline]] bool fits(const ByteRows& other) const noexcept {
-    return detail::fit(*this, values, other, other.values);
-  }
-  /// The squared distance of the bytes.
-  [[nodiscard, gnu::always_inline]] std::uint32_t compare(std::size_t row, const ByteRows& other,
-                                                          std::size_t others_row) const noexcept {
-    return detail::squared_byte_distance(values + row * size, other.values + others_row * size, size);
-  }
-  [[nodiscard, gnu::always_inline]] float distance(std::uint32_t compared) const noexcept {
-    return step * extend::simd::sqrt(static_cast<float>(compared));
-  }
-};
-
-/// `count` descriptors of `size` bytes of nibbles each (1 to 66051), row by row without gaps, as quantize() makes them,
+/// `count` descriptors of `size` bytes of codes each (1 to 66051), row by row without gaps, as quantize() makes them,
 /// all with steps of the same length. Borrowed. Their distance is the L2 distance of the descriptors, `step` times the
 /// root of the sum of squares.
-struct NibbleRows {
+template <int Bits>
+struct CodedRows {
   const std::uint8_t* bytes;  ///< count * size
   std::size_t count;          ///< number of rows
   std::size_t size;           ///< bytes in a row
-  float step;                 ///< NibbleDescriptor's
+  float step;                 ///< CodedDescriptor's
   const Status* status;       ///< one per row: those that are not ok are left out; null: all are ok
 
-  [[nodiscard, gnu::always_inline]] bool fits(const NibbleRows& other) const noexcept {
-    return detail::fit(*this, bytes, other, other.bytes) && step == other.step;
+  [[nodiscard, gnu::always_inline]] bool fits(const CodedRows& other) const noexcept {
+    return detail::fit(*this, other) && step == other.step;
   }
   /// The squared distance in steps.
-  [[nodiscard, gnu::always_inline]] std::uint32_t compare(std::size_t row, const NibbleRows& other,
+  [[nodiscard, gnu::always_inline]] std::uint32_t compare(std::size_t row, const CodedRows& other,
                                                           std::size_t others_row) const noexcept {
-    return detail::squared_nibble_distance(bytes + row * size, other.bytes + others_row * size, size);
+    return detail::squared_code_distance<Bits>(bytes + row * size, other.bytes + others_row * size, size);
   }
   [[nodiscard, gnu::always_inline]] float distance(std::uint32_t compared) const noexcept {
     return step * extend::simd::sqrt(static_cast<float>(compared));
   }
 };
+using ByteRows = CodedRows<8>;
+using NibbleRows = CodedRows<4>;
 
 /// `count` descriptors of `size` bytes of bits each (1 to 66051), row by row without gaps, as binarize() makes them.
 /// Borrowed. Their distance is the number of bits in which they differ (Hamming).
@@ -10943,9 +11192,7 @@ struct BitRows {
   std::size_t size;           ///< bytes in a row
   const Status* status;       ///< one per row: those that are not ok are left out; null: all are ok
 
-  [[nodiscard, gnu::always_inline]] bool fits(const BitRows& other) const noexcept {
-    return detail::fit(*this, bytes, other, other.bytes);
-  }
+  [[nodiscard, gnu::always_inline]] bool fits(const BitRows& other) const noexcept { return detail::fit(*this, other); }
   [[nodiscard, gnu::always_inline]] std::uint32_t compare(std::size_t row, const BitRows& other,
                                                           std::size_t others_row) const noexcept {
     return static_cast<std::uint32_t>(hamming_distance(bytes + row * size, other.bytes + others_row * size, size));
@@ -10958,24 +11205,15 @@ struct BitRows {
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
 
-/// Descriptors as bytes, as nibbles, or as bits, which must outlive the rows. `status` has one for each, as
-/// Features::status of what they were made from: rows that are not ok hold zeros, which should not match. Null: all are
-/// ok.
-template <class D>
-[[nodiscard]] ByteRows rows_of(const std::vector<ByteDescriptor<D>>& descriptors,
-                               const Status* status = nullptr) noexcept {
-  static_assert(sizeof(ByteDescriptor<D>) == ByteDescriptor<D>::size_bytes, "rows without gaps");
-  static_assert(ByteDescriptor<D>::step == ByteRows::step, "distances in the units of the descriptor");
-  return {reinterpret_cast<const std::uint8_t*>(descriptors.data()), descriptors.size(), ByteDescriptor<D>::size_bytes,
+/// Descriptors as codes or as bits, which must outlive the rows. `status` has one for each, as Features::status of what
+/// they were made from: rows that are not ok hold zeros, which should not match. Null: all are ok.
+template <class D, int Bits, int Scale>
+[[nodiscard]] CodedRows<Bits> rows_of(const std::vector<CodedDescriptor<D, Bits, Scale>>& descriptors,
+                                      const Status* status = nullptr) noexcept {
+  using Coded = CodedDescriptor<D, Bits, Scale>;
+  static_assert(sizeof(Coded) == Coded::size_bytes, "rows without gaps");
+  return {reinterpret_cast<const std::uint8_t*>(descriptors.data()), descriptors.size(), Coded::size_bytes, Coded::step,
           status};
-}
-template <class D, int Scale>
-[[nodiscard]] NibbleRows rows_of(const std::vector<NibbleDescriptor<D, Scale>>& descriptors,
-                                 const Status* status = nullptr) noexcept {
-  using Nibbles = NibbleDescriptor<D, Scale>;
-  static_assert(sizeof(Nibbles) == Nibbles::size_bytes, "rows without gaps");
-  return {reinterpret_cast<const std::uint8_t*>(descriptors.data()), descriptors.size(), Nibbles::size_bytes,
-          Nibbles::step, status};
 }
 template <class D, int Group>
 [[nodiscard]] BitRows rows_of(const std::vector<BinaryDescriptor<D, Group>>& descriptors,
@@ -10984,12 +11222,16 @@ template <class D, int Group>
   static_assert(sizeof(Bits) == Bits::size_bytes, "rows without gaps");
   return {reinterpret_cast<const std::uint8_t*>(descriptors.data()), descriptors.size(), Bits::size_bytes, status};
 }
+template <class D, int Bits, int Draws>
+[[nodiscard]] BitRows rows_of(const std::vector<SumBits<D, Bits, Draws>>& descriptors,
+                              const Status* status = nullptr) noexcept {
+  static_assert(sizeof(SumBits<D, Bits, Draws>) == Bits / 8, "rows without gaps");
+  return {reinterpret_cast<const std::uint8_t*>(descriptors.data()), descriptors.size(), Bits / 8, status};
+}
 
 /// ok or bad_rows, as for rows of floats.
-[[nodiscard]] inline Status validate(const ByteRows& rows) noexcept {
-  return rows.fits(rows) ? Status::ok : Status::bad_rows;
-}
-[[nodiscard]] inline Status validate(const NibbleRows& rows) noexcept {
+template <int Bits>
+[[nodiscard]] Status validate(const CodedRows<Bits>& rows) noexcept {
   return rows.fits(rows) ? Status::ok : Status::bad_rows;
 }
 [[nodiscard]] inline Status validate(const BitRows& rows) noexcept {
@@ -11066,30 +11308,11 @@ struct BitCodes {
 /// Which codes rows of a format are made of; for those formats that it is specialized for.
 template <class Rows>
 struct CodesOf {};
-template <>
-struct CodesOf<ByteRows> : NumberCodes<simd::LargeCodes, 8> {
-  [[nodiscard]] static const std::uint8_t* bytes(const ByteRows& rows) noexcept { return rows.values; }
-};
-template <>
-struct CodesOf<NibbleRows> : NumberCodes<simd::SmallCodes, 4> {
-  [[nodiscard]] static const std::uint8_t* bytes(const NibbleRows& rows) noexcept { return rows.bytes; }
-};
-template <>
-struct CodesOf<BitRows> : BitCodes {
-  [[nodiscard]] static const std::uint8_t* bytes(const BitRows& rows) noexcept { return rows.bytes; }
-};
-
-/// Number `place` of those of `Bits` bits that lie one behind the other, the lowest bits first.
 template <int Bits>
-[[nodiscard, gnu::always_inline]] inline unsigned number_at(const std::uint8_t* bytes, std::size_t place) noexcept {
-  constexpr auto mask = (1u << Bits) - 1u;
-  const std::size_t bit = place * Bits;
-  unsigned number = static_cast<unsigned>(bytes[bit / 8]) >> bit % 8;
-  if constexpr (8 % Bits != 0) {
-    if (bit % 8 + Bits > 8) number |= static_cast<unsigned>(bytes[bit / 8 + 1]) << (8 - bit % 8);
-  }
-  return number & mask;
-}
+struct CodesOf<CodedRows<Bits>> : NumberCodes<std::conditional_t<Bits <= 4, simd::SmallCodes, simd::LargeCodes>, Bits> {
+};
+template <>
+struct CodesOf<BitRows> : BitCodes {};
 
 /// Turns rows that fit each other into codes, in the order that is best for one set of them.
 template <class Rows>
@@ -11105,7 +11328,7 @@ class RowCodes {
     std::vector<std::uint64_t> differences(numbers);
     const std::size_t stride = std::max<std::size_t>(1, rows.count / most_pairs);
     for (std::size_t row = stride; row < rows.count; row += stride) {
-      const std::uint8_t* const a = Format::bytes(rows) + row * rows.size;
+      const std::uint8_t* const a = rows.bytes + row * rows.size;
       const std::uint8_t* const b = a - stride * rows.size;
       for (std::size_t i = 0; i < numbers; ++i) {
         differences[i] += Format::distance(number_at<Format::bits>(a, i), number_at<Format::bits>(b, i));
@@ -11126,7 +11349,7 @@ class RowCodes {
   /// codes() of a row, and chunks() parts of its squared norm. What the last step lacks is left as it is: zeros.
   void encode(const Rows& rows, std::size_t row, Code* codes, std::uint32_t* norms) const noexcept {
     constexpr std::size_t chunk_codes = Format::chunk_steps * Ops::step_codes;
-    const std::uint8_t* const bytes = Format::bytes(rows) + row * rows.size;
+    const std::uint8_t* const bytes = rows.bytes + row * rows.size;
     for (std::size_t i = 0; i < order_.size(); ++i) {
       codes[i] = Format::code_of(number_at<Format::bits>(bytes, order_[i]));
       norms[i / chunk_codes] += Format::squared(codes[i]);
@@ -11473,16 +11696,85 @@ template <class Rows>
 struct PackedComparison : PairComparison<Rows> {
   using Limits = PackedLimits;
 };
-template <>
-struct Comparison<ByteRows> : PackedComparison<ByteRows> {};
-template <>
-struct Comparison<NibbleRows> : PackedComparison<NibbleRows> {};
+template <int Bits>
+struct Comparison<CodedRows<Bits>> : PackedComparison<CodedRows<Bits>> {};
 template <>
 struct Comparison<BitRows> : PackedComparison<BitRows> {};
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_RECOGNITION_COMPARE_PACKED_HPP
+
+// shortshot/recognition/half_rows.hpp: borrowed rows of 16-bit floats, which are matched as the floats that they stand
+// for. Hosted only: allocates.
+#ifndef SHORTSHOT_RECOGNITION_HALF_ROWS_HPP
+#define SHORTSHOT_RECOGNITION_HALF_ROWS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// `count` descriptors of `size` halves each, row by row without gaps, as quantize() makes them. Borrowed. Matching
+/// makes floats of them, for as long as it lasts: of the queries and of the database.
+struct HalfRows {
+  const std::uint16_t* values;  ///< count * size
+  std::size_t count;            ///< number of rows
+  std::size_t size;             ///< halves in a row
+  const Status* status;         ///< one per row: those that are not ok are left out; null: all are ok
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// Descriptors as halves, which must outlive the rows; `status` as for codes.
+template <class D>
+[[nodiscard]] HalfRows rows_of(const std::vector<HalfDescriptor<D>>& descriptors,
+                               const Status* status = nullptr) noexcept {
+  static_assert(sizeof(HalfDescriptor<D>) == HalfDescriptor<D>::size_bytes, "rows without gaps");
+  const auto* const values = reinterpret_cast<const std::uint16_t*>(descriptors.data());
+  return {values, descriptors.size(), static_cast<std::size_t>(D::size), status};
+}
+
+/// ok or bad_rows, as for rows of floats.
+[[nodiscard]] inline Status validate(const HalfRows& rows) noexcept {
+  return rows.size > 0 && (rows.count == 0 || rows.values != nullptr) ? Status::ok : Status::bad_rows;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+struct HalvesAsFloats {
+  std::vector<float> values;
+
+  explicit HalvesAsFloats(const HalfRows& rows) : values(rows.count * rows.size) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = float_of_half(rows.values[i]);
+  }
+};
+
+/// Rows of floats that own what they borrow.
+class ComparedHalves : private HalvesAsFloats, public ComparedRows {
+ public:
+  explicit ComparedHalves(const HalfRows& rows)
+      : HalvesAsFloats(rows), ComparedRows(DescriptorRows{values.data(), rows.count, rows.size, rows.status}) {}
+  ComparedHalves(const ComparedHalves&) = delete;
+  ComparedHalves& operator=(const ComparedHalves&) = delete;
+};
+
+template <>
+struct Comparison<HalfRows> {
+  using Compared = ComparedHalves;
+  using Limits = QueryLimits;
+  [[nodiscard]] static bool fit(const HalfRows& a, const HalfRows& b) noexcept {
+    return validate(a) == Status::ok && validate(b) == Status::ok && a.size == b.size;
+  }
+  [[nodiscard]] static float distance(const HalfRows&, float compared) noexcept { return simd::sqrt(compared); }
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_HALF_ROWS_HPP
 
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
@@ -11518,7 +11810,8 @@ template <class Rows, class Number>
 /// ok or bad_rows.
 template <class Rows>
 [[nodiscard]] Status check_comparable(const Rows& a, const Rows& b) {
-  if constexpr (!std::is_same<Rows, DescriptorRows>::value) require_row_format<Rows>();
+  constexpr bool is_float = std::is_same<Rows, DescriptorRows>::value || std::is_same<Rows, HalfRows>::value;
+  if constexpr (!is_float) require_row_format<Rows>();
   const bool numbered = a.count < no_row && b.count < no_row;
   return numbered && Comparison<Rows>::fit(a, b) ? Status::ok : Status::bad_rows;
 }
@@ -11580,8 +11873,9 @@ inline namespace SHORTSHOT_CODE {
 /// The k nearest rows of the database for each query, nearest first; of rows at the same distance the first ones come
 /// first. Exact: as if all distances were computed.
 ///
-/// `queries`, `database`  DescriptorRows, ByteRows, NibbleRows or BitRows (see rows_of()), or rows in a format of your
-/// own
+/// `queries`, `database`  DescriptorRows, HalfRows, CodedRows (ByteRows, NibbleRows) or BitRows (see rows_of()), or
+/// rows
+///            in a format of your own
 ///            (extend::is_row_format). Distances are L2 for floats (sums of squared differences in float, in a fixed
 ///            order: l2_distance()), for bytes and nibbles, Hamming for bits
 /// `k`        from 1 on; meant to be small (an insertion costs O(k))

@@ -191,22 +191,38 @@ void print_packed_matches(const Input& input, const Features<D>& view, const Fea
   hash.print(input.name, "features_file");
 }
 
-/// A compact descriptor in nibbles, and matches of such with those of another radius.
-void print_nibbles(const Input& input, const GridSearch& search, const std::vector<KeyPoint>& keypoints) {
-  using D = ShapeColor95;
-  std::vector<NibbleDescriptor<D>> nibbles[2];
+template <class Stored, class Store>
+void print_stored(const Input& input, const std::vector<float> (&views)[2], const char* name, const Store& store) {
+  std::vector<Stored> stored[2];
   Hash hash;
   for (const int k : {0, 1}) {
-    Features<D> features;
-    const Status described =
-        extract(input.cloud, search, keypoints, (k == 0 ? 1.0f : 0.9f) * input.radius.value, features);
-    nibbles[k].resize(features.size());
-    for (std::size_t i = 0; i < features.size(); ++i) quantize(features[i], nibbles[k][i]);
-    hash.add(&described, 1);
-    hash.add(nibbles[k].data(), nibbles[k].size());
+    stored[k].resize(views[k].size() / ShapeColor95::size);
+    for (std::size_t i = 0; i < stored[k].size(); ++i) store(&views[k][i * ShapeColor95::size], stored[k][i]);
+    hash.add(stored[k].data(), stored[k].size());
   }
-  hash.print(input.name, "nibbles");
-  print_matches(input, rows_of(nibbles[0]), rows_of(nibbles[1]), "matches_nibbles");
+  hash.print(input.name, name);
+  print_matches(input, rows_of(stored[0]), rows_of(stored[1]), (std::string("matches_") + name).c_str());
+}
+
+/// A compact descriptor in every storage, and matches of such with those of another radius.
+template <class D = ShapeColor95>
+void print_storages(const Input& input, const GridSearch& search, const std::vector<KeyPoint>& keypoints) {
+  std::vector<float> views[2];
+  for (const int k : {0, 1}) {
+    Features<D> features;
+    const float radius = (k == 0 ? 1.0f : 0.9f) * input.radius.value;
+    if (extract(input.cloud, search, keypoints, radius, features) == Status::ok) views[k] = features.values;
+  }
+  const auto codes = [](const float* values, auto& out) { quantize(values, out); };
+  print_stored<NibbleDescriptor<D>>(input, views, "nibbles", codes);
+  print_stored<CodedDescriptor<D, 3>>(input, views, "thirds", codes);
+  print_stored<ByteDescriptor<D>>(input, views, "signed_bytes", codes);
+  print_stored<HalfDescriptor<D>>(input, views, "halves", codes);
+  print_stored<SumBits<D>>(input, views, "sum_bits", [](const float* values, SumBits<D>& out) {
+    NibbleDescriptor<D> nibbles;
+    quantize(values, nibbles);
+    binarize(nibbles, out);
+  });
 }
 
 /// Matches of a view's key points with those seen with another radius, the motion between them, and what it shows.
@@ -225,7 +241,7 @@ void print_recognition(const Input& input) {
   hash.print(input.name, "described");
   const std::vector<MatchedPair> mutual = print_matches(input, rows_of(view), rows_of(other), "matches");
   print_packed_matches(input, view, other);
-  print_nibbles(input, search, keypoints);
+  print_storages(input, search, keypoints);
 
   std::vector<PointPair> pairs;
   for (const MatchedPair& c : mutual) {

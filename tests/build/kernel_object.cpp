@@ -18,6 +18,9 @@ shortshot::ByteDescriptor<shortshot::Scsh336> bytes, last_bytes;
 volatile int bits_apart;
 shortshot::NibbleDescriptor<shortshot::ShapeColor95> nibbles, last_nibbles;
 volatile std::uint32_t bytes_apart;
+shortshot::CodedDescriptor<shortshot::ShapeColor95, 3> thirds;
+shortshot::HalfDescriptor<shortshot::ShapeColor95> halves;
+shortshot::SumBits<shortshot::ShapeColor95> sums;
 
 using Multilinear = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::MultilinearVoting>;
 using Hard = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::HardVoting, shortshot::LogRadius<>>;
@@ -61,6 +64,9 @@ shortshot::Status describe_in_nibbles(const shortshot::CloudView& cloud, std::si
   if (status != shortshot::Status::ok) return status;
   last_nibbles = nibbles;
   shortshot::quantize(descriptor, nibbles);
+  shortshot::quantize(descriptor, thirds);
+  shortshot::quantize(descriptor, halves);
+  shortshot::binarize(nibbles, sums);
   bytes_apart = shortshot::squared_distance(nibbles, last_nibbles);
   return status;
 }

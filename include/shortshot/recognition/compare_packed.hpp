@@ -211,10 +211,8 @@ template <class Rows>
 struct PackedComparison : PairComparison<Rows> {
   using Limits = PackedLimits;
 };
-template <>
-struct Comparison<ByteRows> : PackedComparison<ByteRows> {};
-template <>
-struct Comparison<NibbleRows> : PackedComparison<NibbleRows> {};
+template <int Bits>
+struct Comparison<CodedRows<Bits>> : PackedComparison<CodedRows<Bits>> {};
 template <>
 struct Comparison<BitRows> : PackedComparison<BitRows> {};
 

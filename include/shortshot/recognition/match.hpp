@@ -16,6 +16,7 @@
 #include "compare_packed.hpp"
 #include "compare_rows.hpp"
 #include "descriptor_rows.hpp"
+#include "half_rows.hpp"
 #include "packed_rows.hpp"
 #include "row_format.hpp"
 
@@ -53,7 +54,8 @@ template <class Rows, class Number>
 /// ok or bad_rows.
 template <class Rows>
 [[nodiscard]] Status check_comparable(const Rows& a, const Rows& b) {
-  if constexpr (!std::is_same<Rows, DescriptorRows>::value) require_row_format<Rows>();
+  constexpr bool is_float = std::is_same<Rows, DescriptorRows>::value || std::is_same<Rows, HalfRows>::value;
+  if constexpr (!is_float) require_row_format<Rows>();
   const bool numbered = a.count < no_row && b.count < no_row;
   return numbered && Comparison<Rows>::fit(a, b) ? Status::ok : Status::bad_rows;
 }
@@ -115,8 +117,9 @@ inline namespace SHORTSHOT_CODE {
 /// The k nearest rows of the database for each query, nearest first; of rows at the same distance the first ones come
 /// first. Exact: as if all distances were computed.
 ///
-/// `queries`, `database`  DescriptorRows, ByteRows, NibbleRows or BitRows (see rows_of()), or rows in a format of your
-/// own
+/// `queries`, `database`  DescriptorRows, HalfRows, CodedRows (ByteRows, NibbleRows) or BitRows (see rows_of()), or
+/// rows
+///            in a format of your own
 ///            (extend::is_row_format). Distances are L2 for floats (sums of squared differences in float, in a fixed
 ///            order: l2_distance()), for bytes and nibbles, Hamming for bits
 /// `k`        from 1 on; meant to be small (an insertion costs O(k))

@@ -9,10 +9,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 #include "../base/simd_sums.hpp"
 #include "../config.hpp"
+#include "../store/code_distance.hpp"
 #include "packed_rows.hpp"
 
 namespace shortshot::detail {
@@ -81,30 +83,11 @@ struct BitCodes {
 /// Which codes rows of a format are made of; for those formats that it is specialized for.
 template <class Rows>
 struct CodesOf {};
-template <>
-struct CodesOf<ByteRows> : NumberCodes<simd::LargeCodes, 8> {
-  [[nodiscard]] static const std::uint8_t* bytes(const ByteRows& rows) noexcept { return rows.values; }
-};
-template <>
-struct CodesOf<NibbleRows> : NumberCodes<simd::SmallCodes, 4> {
-  [[nodiscard]] static const std::uint8_t* bytes(const NibbleRows& rows) noexcept { return rows.bytes; }
-};
-template <>
-struct CodesOf<BitRows> : BitCodes {
-  [[nodiscard]] static const std::uint8_t* bytes(const BitRows& rows) noexcept { return rows.bytes; }
-};
-
-/// Number `place` of those of `Bits` bits that lie one behind the other, the lowest bits first.
 template <int Bits>
-[[nodiscard, gnu::always_inline]] inline unsigned number_at(const std::uint8_t* bytes, std::size_t place) noexcept {
-  constexpr auto mask = (1u << Bits) - 1u;
-  const std::size_t bit = place * Bits;
-  unsigned number = static_cast<unsigned>(bytes[bit / 8]) >> bit % 8;
-  if constexpr (8 % Bits != 0) {
-    if (bit % 8 + Bits > 8) number |= static_cast<unsigned>(bytes[bit / 8 + 1]) << (8 - bit % 8);
-  }
-  return number & mask;
-}
+struct CodesOf<CodedRows<Bits>> : NumberCodes<std::conditional_t<Bits <= 4, simd::SmallCodes, simd::LargeCodes>, Bits> {
+};
+template <>
+struct CodesOf<BitRows> : BitCodes {};
 
 /// Turns rows that fit each other into codes, in the order that is best for one set of them.
 template <class Rows>
@@ -120,7 +103,7 @@ class RowCodes {
     std::vector<std::uint64_t> differences(numbers);
     const std::size_t stride = std::max<std::size_t>(1, rows.count / most_pairs);
     for (std::size_t row = stride; row < rows.count; row += stride) {
-      const std::uint8_t* const a = Format::bytes(rows) + row * rows.size;
+      const std::uint8_t* const a = rows.bytes + row * rows.size;
       const std::uint8_t* const b = a - stride * rows.size;
       for (std::size_t i = 0; i < numbers; ++i) {
         differences[i] += Format::distance(number_at<Format::bits>(a, i), number_at<Format::bits>(b, i));
@@ -141,7 +124,7 @@ class RowCodes {
   /// codes() of a row, and chunks() parts of its squared norm. What the last step lacks is left as it is: zeros.
   void encode(const Rows& rows, std::size_t row, Code* codes, std::uint32_t* norms) const noexcept {
     constexpr std::size_t chunk_codes = Format::chunk_steps * Ops::step_codes;
-    const std::uint8_t* const bytes = Format::bytes(rows) + row * rows.size;
+    const std::uint8_t* const bytes = rows.bytes + row * rows.size;
     for (std::size_t i = 0; i < order_.size(); ++i) {
       codes[i] = Format::code_of(number_at<Format::bits>(bytes, order_[i]));
       norms[i / chunk_codes] += Format::squared(codes[i]);

@@ -63,7 +63,7 @@ struct OfBytes {
   static constexpr std::size_t size = 77;  // not whole pieces
   std::vector<std::uint8_t> values;
   [[nodiscard]] ss::ByteRows view(const Status* status) const {
-    return {values.data(), values.size() / size, size, status};
+    return {values.data(), values.size() / size, size, 1.0f / 512.0f, status};
   }
   static float distance(const OfBytes& a, std::size_t i, const OfBytes& b, std::size_t k) {
     std::uint32_t sum = 0;

@@ -15,29 +15,32 @@ namespace {
 using namespace unit;
 using ss::Status;
 
+constexpr float step = 1.0f / 512.0f;
+
 }  // namespace
 
 TEST_CASE("packed rows: those that do not fit each other are refused") {
   const std::vector<std::uint8_t> bytes(12);
   std::vector<ss::Match> out(2);
-  const ss::ByteRows good{bytes.data(), 4, 3, nullptr};
-  const ss::ByteRows bad[] = {{nullptr, 4, 3, nullptr},
-                              {bytes.data(), 4, 0, nullptr},
-                              {bytes.data(), 6, 2, nullptr},
-                              {bytes.data(), 1, 66052, nullptr},
-                              {bytes.data(), ss::no_row, 3, nullptr}};
+  const ss::ByteRows good{bytes.data(), 4, 3, step, nullptr};
+  const ss::ByteRows bad[] = {{nullptr, 4, 3, step, nullptr},
+                              {bytes.data(), 4, 0, step, nullptr},
+                              {bytes.data(), 6, 2, step, nullptr},
+                              {bytes.data(), 1, 66052, step, nullptr},
+                              {bytes.data(), ss::no_row, 3, step, nullptr}};
   for (const ss::ByteRows& other : bad) {
     CHECK(ss::nearest(good, other, 1, out) == Status::bad_rows);
     CHECK(ss::nearest(other, good, 1, out) == Status::bad_rows);
-    const ss::BitRows bits{other.values, other.count, other.size, nullptr};
+    const ss::BitRows bits{other.bytes, other.count, other.size, nullptr};
     CHECK(ss::nearest(ss::BitRows{bytes.data(), 4, 3, nullptr}, bits, 1, out) == Status::bad_rows);
     CHECK(out.empty());
   }
+  CHECK(ss::nearest(good, ss::ByteRows{bytes.data(), 4, 3, 2.0f * step, nullptr}, 1, out) == Status::bad_rows);
   CHECK(ss::validate(good) == Status::ok);
   CHECK(ss::validate(bad[1]) == Status::bad_rows);
   CHECK(ss::validate(ss::BitRows{nullptr, 0, 3, nullptr}) == Status::ok);
   CHECK(ss::nearest(good, good, 0, out) == Status::bad_option);
-  const ss::ByteRows none{nullptr, 0, 3, nullptr};
+  const ss::ByteRows none{nullptr, 0, 3, step, nullptr};
   CHECK(ss::nearest(good, none, 1, out) == Status::ok);
   CHECK((out.size() == 4 && out[0].row == ss::no_row && out[0].distance == infinity));
 }
@@ -69,12 +72,12 @@ TEST_CASE("packed rows: the largest distance of bytes that there can be") {
   const std::size_t size = 66051;
   std::vector<std::uint8_t> values(2 * size, 255);
   std::fill_n(values.begin(), size, std::uint8_t{0});
-  const ss::ByteRows zeros{values.data(), 1, size, nullptr};
-  const ss::ByteRows ones{values.data() + size, 1, size, nullptr};
+  const ss::ByteRows zeros{values.data(), 1, size, step, nullptr};
+  const ss::ByteRows ones{values.data() + size, 1, size, step, nullptr};
   CHECK(zeros.compare(0, ones, 0) == 4294966275u);
   std::vector<ss::Match> out;
   REQUIRE(ss::nearest(zeros, ones, 1, out) == Status::ok);
-  CHECK((out[0].row == 0 && out[0].distance == ss::ByteRows::step * std::sqrt(4294966275.0f)));
+  CHECK((out[0].row == 0 && out[0].distance == step * std::sqrt(4294966275.0f)));
 }
 
 TEST_CASE("packed rows: the longest rows of nibbles and of bits") {

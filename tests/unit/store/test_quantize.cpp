@@ -30,7 +30,7 @@ static_assert(Bytes336::size == 336 && Bytes336::size_bytes == 336 && Bytes336::
 std::uint8_t quantized(float value) {
   ss::ByteDescriptor<Values<1>> byte = {{0xA5}};
   ss::quantize(&value, byte);
-  return byte.values[0];
+  return byte.bytes[0];
 }
 
 template <int Size>
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> quantized(const std::vector<float>& values) {
   ss::ByteDescriptor<Values<Size>> bytes;
   std::memset(&bytes, 0xA5, sizeof bytes);
   ss::quantize(values.data(), bytes);
-  return {std::begin(bytes.values), std::end(bytes.values)};
+  return {std::begin(bytes.bytes), std::end(bytes.bytes)};
 }
 
 /// The rule in double, where neither the product nor the sum is rounded.
@@ -68,7 +68,7 @@ void check_in_place(std::uint32_t seed) {
   std::memcpy(both.values, values.data(), sizeof both.values);
   ss::quantize(both.values, both.bytes);
   const std::vector<std::uint8_t> expected = quantized<Size>(values);
-  CHECK(std::equal(expected.begin(), expected.end(), both.bytes.values));
+  CHECK(std::equal(expected.begin(), expected.end(), both.bytes.bytes));
 }
 
 /// A descriptor of no use but its length: 1.
@@ -152,9 +152,9 @@ TEST_CASE("quantize: the distance is the exact integer, up to what 32 bits can c
     ss::ByteDescriptor<Values<101>> a, b;
     std::uint64_t expected = 0;
     for (std::size_t i = 0; i < 101; ++i) {
-      a.values[i] = random.byte();
-      b.values[i] = random.byte();
-      const int difference = int{a.values[i]} - int{b.values[i]};
+      a.bytes[i] = random.byte();
+      b.bytes[i] = random.byte();
+      const int difference = int{a.bytes[i]} - int{b.bytes[i]};
       expected += static_cast<std::uint64_t>(difference * difference);
     }
     CHECK(ss::squared_distance(a, b) == expected);
