@@ -11,15 +11,21 @@ namespace {
 template <class D>
 Candidate published(std::string name, std::string board_name = {}) {
   Candidate c = candidate<D>(std::move(name), Kind::published, std::move(board_name));
-  with_bytes<D>(c);
-  with_nibbles<D>(c);
-  return with_bits<D>(c);
+  with_codes<D>(c);
+  return with_format<shortshot::BinaryDescriptor<D>>(c, "bshot", D::size);
 }
 
 template <class D>
 Candidate compact(std::string name, std::string board_name = {}) {
   Candidate c = candidate<D>(std::move(name), Kind::compact, std::move(board_name));
-  return with_nibbles<D>(c);
+  return with_codes<D>(c);
+}
+
+/// With bits of sparse sums, in 44 and in 32 bytes.
+template <class D>
+Candidate with_sums(Candidate c) {
+  with_format<shortshot::SumBits<D>>(c, "sums44", 352);
+  return with_format<shortshot::SumBits<D, 256, 6>>(c, "sums32", 256);
 }
 
 /// The same in a frame whose x axis a lamp turns.
@@ -68,7 +74,7 @@ std::vector<Candidate> candidates(bool quick) {
       published<PclShot352>("shot352", "Shot352"),
       published<Scsh336>("scsh336", "Scsh336"),
       towards_camera(published<PclShot352>("shot352", "Shot352")),
-      compact<ShapeColor95>("shapecolor95", "ShapeColor95"),
+      with_sums<ShapeColor95>(compact<ShapeColor95>("shapecolor95", "ShapeColor95")),
       compact<ShapeColor32>("shapecolor32", "ShapeColor32"),
   };
   if (quick) return all;

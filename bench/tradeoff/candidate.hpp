@@ -70,20 +70,23 @@ Candidate candidate(std::string name, Kind kind, std::string board_name = {}) {
   return {paper::configuration<D>(std::move(name)), extract_as<D>, {float_storage<D>()}, kind, std::move(board_name)};
 }
 
-template <class D>
-Candidate& with_bytes(Candidate& c) {
-  c.storages.push_back(packed_storage<shortshot::ByteDescriptor<D>>("8bit", D::size));
+/// `name` says the format, `code_size` how many numbers a code has.
+template <class Packed>
+Candidate& with_format(Candidate& c, std::string name, int code_size) {
+  c.storages.push_back(packed_storage<Packed>(std::move(name), static_cast<std::size_t>(code_size)));
   return c;
 }
-template <class D, int Scale = shortshot::nibble_scale<D>>
+template <class D, int Scale = shortshot::code_scale<D, 4>>
 Candidate& with_nibbles(Candidate& c) {
-  c.storages.push_back(packed_storage<shortshot::NibbleDescriptor<D, Scale>>("4bit", D::size));
-  return c;
+  return with_format<shortshot::NibbleDescriptor<D, Scale>>(c, "4bit", D::size);
 }
+/// Whole numbers of steps, coarser and coarser, and in half the bits of a float.
 template <class D>
-Candidate& with_bits(Candidate& c) {
-  c.storages.push_back(packed_storage<shortshot::BinaryDescriptor<D>>("bshot", D::size));
-  return c;
+Candidate& with_codes(Candidate& c) {
+  with_format<shortshot::HalfDescriptor<D>>(c, "half", D::size);
+  with_format<shortshot::ByteDescriptor<D>>(c, "8bit", D::size);
+  with_nibbles<D>(c);
+  return with_format<shortshot::CodedDescriptor<D, 3>>(c, "3bit", D::size);
 }
 
 /// All: the library's own, CSHOT first, then the family. `quick`: a few of them.

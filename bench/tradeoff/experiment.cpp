@@ -69,7 +69,7 @@ std::vector<NamedLook> looks_at(const datasets::PairSet& set) {
     look.view.leaf = 0.04f;
     look.view.points_of_cloud = false;
     look.view.most_keypoints = 0;
-    look.correct_distance = 0.1f;
+    look.correct_distance = 0.06f;
     looks.push_back({"inliers", look, Figure::inlier_ratio, 1, true});
     return looks;
   }
@@ -202,14 +202,17 @@ class Builder {
              count_hough_instances);
   }
 
-  /// What a recognizer would be given: published ones in floats, compact ones in four bits.
+  /// What a recognizer would be given: published ones in floats, compact ones in four bits or in bits.
   std::vector<Candidate> headline() const {
     std::vector<Candidate> chosen;
     for (Candidate c : *all_) {
       const bool is_published = c.kind == Kind::published && !c.configuration.wants_viewpoint;
       if (!is_published && c.kind != Kind::compact) continue;
-      c.storages = {*std::find_if(c.storages.begin(), c.storages.end(),
-                                  [&](const Storage& s) { return s.name == (is_published ? "float" : "4bit"); })};
+      std::vector<Storage> kept;
+      for (const Storage& s : c.storages) {
+        if (s.name == (is_published ? "float" : "4bit") || s.name == "sums44") kept.push_back(s);
+      }
+      c.storages = std::move(kept);
       chosen.push_back(std::move(c));
     }
     return chosen;

@@ -35,7 +35,7 @@ bool is_headline(const Entry& entry) {
   const auto ends_with = [&](const std::string& end) {
     return entry.name.size() > end.size() && entry.name.compare(entry.name.size() - end.size(), end.size(), end) == 0;
   };
-  if (entry.kind == Kind::compact) return ends_with("-4bit") || ends_with("-sparse");
+  if (entry.kind == Kind::compact) return ends_with("-4bit") || ends_with("-sums44");
   return entry.name == "scsh336-float" || entry.name == plain_baseline;
 }
 

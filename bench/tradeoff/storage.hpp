@@ -29,30 +29,44 @@ paper::Described coded(const paper::Described& described, const Storage& storage
 namespace storage_detail {
 
 template <class D>
-void code_of(const shortshot::ByteDescriptor<D>& packed, float* code) {
-  for (std::size_t i = 0; i < sizeof packed.values; ++i) code[i] = static_cast<float>(packed.values[i]);
+void code_of(const shortshot::HalfDescriptor<D>& packed, float* code) {
+  shortshot::dequantize(packed, code);
 }
-template <class D, int Scale>
-void code_of(const shortshot::NibbleDescriptor<D, Scale>& packed, float* code) {
+template <class D, int Bits, int Scale>
+void code_of(const shortshot::CodedDescriptor<D, Bits, Scale>& packed, float* code) {
   shortshot::dequantize(packed, code);
   for (int i = 0; i < D::size; ++i) code[i] = std::nearbyint(code[i] * static_cast<float>(Scale));
 }
+template <std::size_t SizeBytes>
+void code_of_bits(const std::uint8_t (&bytes)[SizeBytes], int bits, float* code) {
+  for (int i = 0; i < bits; ++i) code[i] = static_cast<float>(bytes[i / 8] >> i % 8 & 1);
+}
 template <class D, int Group>
 void code_of(const shortshot::BinaryDescriptor<D, Group>& packed, float* code) {
-  for (int i = 0; i < D::size; ++i) code[i] = static_cast<float>(packed.bytes[i / 8] >> i % 8 & 1);
+  code_of_bits(packed.bytes, D::size, code);
+}
+template <class D, int Bits, int Draws>
+void code_of(const shortshot::SumBits<D, Bits, Draws>& packed, float* code) {
+  code_of_bits(packed.bytes, Bits, code);
 }
 
 template <class D>
-void pack(const float* values, shortshot::ByteDescriptor<D>& packed) {
+void pack(const float* values, shortshot::HalfDescriptor<D>& packed) {
   shortshot::quantize(values, packed);
 }
-template <class D, int Scale>
-void pack(const float* values, shortshot::NibbleDescriptor<D, Scale>& packed) {
+template <class D, int Bits, int Scale>
+void pack(const float* values, shortshot::CodedDescriptor<D, Bits, Scale>& packed) {
   shortshot::quantize(values, packed);
 }
 template <class D, int Group>
 void pack(const float* values, shortshot::BinaryDescriptor<D, Group>& packed) {
   shortshot::binarize(values, packed);
+}
+template <class D, int Bits, int Draws>
+void pack(const float* values, shortshot::SumBits<D, Bits, Draws>& packed) {
+  shortshot::NibbleDescriptor<D> nibbles;
+  shortshot::quantize(values, nibbles);
+  shortshot::binarize(nibbles, packed);
 }
 
 }  // namespace storage_detail

@@ -10,7 +10,7 @@
 #include "shortshot/descriptor/spherical_grid.hpp"
 #include "shortshot/descriptor/voting.hpp"
 #include "shortshot/kernel/describe.hpp"
-#include "shortshot/store/nibbles.hpp"
+#include "shortshot/store/coded.hpp"
 
 namespace shortshot_bench::golden {
 namespace {
@@ -53,7 +53,7 @@ constexpr DescriptorOutput output_of(const char* name) {
           row_l2_of<D>,
           !is_continuous<typename D::Voting>,
           describe_by<D>,
-          static_cast<double>(shortshot::nibble_scale<D>),
+          static_cast<double>(shortshot::code_scale<D, 4>),
           to_nibbles<D>};
 }
 

@@ -55,6 +55,9 @@ TEST_CASE("squared distances of codes are the format's own, in its steps or bits
   const Storage bits = packed_storage<Bits>("bshot", 190);
   CHECK(nibbles.size_bytes == 95);
   CHECK(bits.size_bytes == 24);
+  using Sums = shortshot::SumBits<shortshot::ShapeColor95>;
+  const Storage sums = packed_storage<Sums>("sums44", 352);
+  CHECK(sums.size_bytes == 44);
   for (int round = 0; round < 20; ++round) {
     const std::vector<float> a = values();
     const std::vector<float> b = values();
@@ -73,6 +76,10 @@ TEST_CASE("squared distances of codes are the format's own, in its steps or bits
     shortshot::binarize(a.data(), bits_of_a);
     shortshot::binarize(b.data(), bits_of_b);
     CHECK(squared(code(bits, a), code(bits, b)) == shortshot::hamming_distance(bits_of_a, bits_of_b));
+    Sums sums_of_a, sums_of_b;
+    shortshot::binarize(of_a, sums_of_a);
+    shortshot::binarize(of_b, sums_of_b);
+    CHECK(squared(code(sums, a), code(sums, b)) == shortshot::hamming_distance(sums_of_a, sums_of_b));
   }
 }
 
