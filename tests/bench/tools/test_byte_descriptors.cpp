@@ -69,7 +69,7 @@ void check_neighbors(double same_at_least, double error_at_most, double farther_
   double same = 0.0, squared_error = 0.0, farther = 1.0;
   for (std::size_t i = 0; i < queries.floats.size(); ++i) {
     const std::size_t expected = nearest(queries.floats[i], others.floats, distance);
-    const std::size_t found = nearest(queries.bytes[i], others.bytes, shortshot::squared_distance<D>);
+    const std::size_t found = nearest(queries.bytes[i], others.bytes, shortshot::squared_distance<D, 8, 512>);
     const double truth = distance(queries.floats[i], others.floats[found]);
     const double measured = static_cast<double>(Bytes::step) *
                             std::sqrt(shortshot::squared_distance(queries.bytes[i], others.bytes[found]));
