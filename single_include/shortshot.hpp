@@ -9735,7 +9735,7 @@ void to_pcl(const Features<D>& features, PclCloud& cloud) {
 // Between what byte_stream.hpp puts around it ("SSHOTFEA", the version and the checksum), n rows of s values:
 //
 //     layout (length, characters), s, n
-//     values: n * s floats, row by row
+//     values: n * s floats, row by row; or what they are stored as (stored_features.hpp), which the layout says then
 //     statuses: n bytes
 //     key points, for each: 3 floats position, float intensity, 3 bytes red, green, blue, 1 byte: 1 if there is a color
 //       plus 2 if there is an intensity
@@ -10014,16 +10014,28 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr FileKind features_file{"SSHOTFEA", 1};
 
+/// Values of a row may be floats, halves or bytes.
+[[nodiscard]] inline bool is_value(float value) noexcept { return math::is_finite(value); }
+[[nodiscard]] inline bool is_value(std::uint16_t half) noexcept { return (half & 0x7C00u) != 0x7C00u; }
+[[nodiscard]] inline bool is_value(std::uint8_t) noexcept { return true; }
+inline void write_value(ByteWriter& to, float value) { to.real(value); }
+inline void write_value(ByteWriter& to, std::uint16_t half) { to.number(half); }
+inline void write_value(ByteWriter& to, std::uint8_t byte) { to.number(byte); }
+inline void read_value(ByteReader& from, float& value) noexcept { value = from.any_real(); }
+inline void read_value(ByteReader& from, std::uint16_t& half) noexcept { half = from.number<std::uint16_t>(); }
+inline void read_value(ByteReader& from, std::uint8_t& byte) noexcept { byte = from.number<std::uint8_t>(); }
+
 /// Of a row, without its values.
 inline constexpr std::size_t feature_bytes = 1 + (3 + 1) * sizeof(float) + 4 + (9 + 3) * sizeof(float) + 4;
 
 /// The vectors of a Features<D>, or of a const one: what follows is compiled once for all D, and, being templates, not
 /// at all where no features are saved.
-template <template <class> class MaybeConst>
+template <template <class> class MaybeConst, class Number>
 struct FeatureColumns {
+  using Value = Number;
   std::string_view layout;
   std::size_t row_size;
-  MaybeConst<std::vector<float>>& values;
+  MaybeConst<std::vector<Value>>& values;
   MaybeConst<std::vector<Status>>& status;
   MaybeConst<std::vector<KeyPoint>>& keypoints;
   MaybeConst<std::vector<Frame>>& frames;
@@ -10032,14 +10044,17 @@ struct FeatureColumns {
 };
 template <class T>
 using Same = T;
-using ColumnsToSave = FeatureColumns<std::add_const_t>;
-using ColumnsToLoad = FeatureColumns<Same>;
+template <class Value>
+using ColumnsToSave = FeatureColumns<std::add_const_t, Value>;
+template <class Value>
+using ColumnsToLoad = FeatureColumns<Same, Value>;
 
-template <class Columns, class SomeFeatures>
-[[nodiscard]] Columns columns_of(SomeFeatures& features, std::string_view layout, std::size_t row_size) noexcept {
+template <class Columns, class SomeFeatures, class Values>
+[[nodiscard]] Columns columns_of(SomeFeatures& features, Values& values, std::string_view layout,
+                                 std::size_t row_size) noexcept {
   return {layout,
           row_size,
-          features.values,
+          values,
           features.status,
           features.keypoints,
           features.frames,
@@ -10054,7 +10069,7 @@ template <class Columns>
   const std::size_t count = from.status.size();
   bool can = from.values.size() == count * from.row_size && from.keypoints.size() == count &&
              from.frames.size() == count && from.confidence.size() == count && from.neighbors.size() == count;
-  for (const float value : from.values) can = can && math::is_finite(value);
+  for (const auto value : from.values) can = can && is_value(value);
   for (const Status status : from.status) can = can && static_cast<int>(status) < status_count;
   for (const Frame& frame : from.frames) {
     can = can && math::is_finite(frame.x) && math::is_finite(frame.y) && math::is_finite(frame.z);
@@ -10070,7 +10085,7 @@ void write_columns(ByteWriter& to, const Columns& from) {
   to.name(from.layout);
   to.count(from.row_size);
   to.count(from.status.size());
-  to.reals(from.values.data(), from.values.size());
+  for (const auto value : from.values) write_value(to, value);
   for (const Status status : from.status) to.number(static_cast<std::uint8_t>(status));
   for (const KeyPoint& key : from.keypoints) {
     to.point(key.position);
@@ -10112,12 +10127,15 @@ template <class Columns>
   if (!from.good()) return Status::damaged_model;
   if (layout != to.layout) return Status::other_descriptor;
   from.require(row_size == to.row_size);
-  const std::size_t row_bytes = to.row_size * sizeof(float) + feature_bytes;
+  const std::size_t row_bytes = to.row_size * sizeof(typename Columns::Value) + feature_bytes;
   const std::size_t count = from.count(row_bytes);
   from.require(from.left() == count * row_bytes);
   if (!from.good()) return Status::damaged_model;
   to.values.resize(count * to.row_size);
-  from.reals(to.values.data(), to.values.size());
+  for (auto& value : to.values) {
+    read_value(from, value);
+    from.require(is_value(value));
+  }
   to.status.reserve(count);
   while (to.status.size() < count) to.status.push_back(read_status(from));
   to.keypoints.reserve(count);
@@ -10142,7 +10160,7 @@ template <class Columns>
 [[nodiscard]] Status save_columns(const Columns& from, std::vector<std::uint8_t>& bytes) {
   bytes.clear();
   if (!can_be_saved(from)) return Status::bad_rows;
-  const std::size_t row_bytes = from.row_size * sizeof(float) + feature_bytes;
+  const std::size_t row_bytes = from.row_size * sizeof(typename Columns::Value) + feature_bytes;
   ByteWriter to(bytes, features_file, 4096 + from.status.size() * row_bytes);
   write_columns(to, from);
   to.finish();
@@ -10168,7 +10186,9 @@ inline namespace SHORTSHOT_CODE {
 template <class D>
 [[nodiscard]] Status save(const Features<D>& features, std::vector<std::uint8_t>& bytes) {
   const std::string layout = layout_of<D>();
-  return detail::save_columns(detail::columns_of<detail::ColumnsToSave>(features, layout, std::size_t{D::size}), bytes);
+  using Columns = detail::ColumnsToSave<float>;
+  return detail::save_columns(detail::columns_of<Columns>(features, features.values, layout, std::size_t{D::size}),
+                              bytes);
 }
 
 /// The features that save() made these bytes of, bit for bit. What layout_of<D>() does not say (radii, how frames were
@@ -10182,8 +10202,9 @@ template <class D>
 [[nodiscard]] Status load(const std::uint8_t* bytes, std::size_t size, Features<D>& out) {
   const std::string layout = layout_of<D>();
   Features<D> loaded;
+  using Columns = detail::ColumnsToLoad<float>;
   const Status status = detail::load_columns(
-      bytes, size, detail::columns_of<detail::ColumnsToLoad>(loaded, layout, std::size_t{D::size}));
+      bytes, size, detail::columns_of<Columns>(loaded, loaded.values, layout, std::size_t{D::size}));
   if (status == Status::ok) out = std::move(loaded);
   return status;
 }
@@ -10207,6 +10228,164 @@ template <class D>
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_STORE_FEATURES_FILE_HPP
+
+// shortshot/store/stored_features.hpp: what extract() gives with its descriptors stored smaller, in memory and in
+// files. Hosted only: allocates.
+#ifndef SHORTSHOT_STORE_STORED_FEATURES_HPP
+#define SHORTSHOT_STORE_STORED_FEATURES_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// Features with descriptors in a storage: HalfDescriptor, CodedDescriptor (bytes, nibbles), BinaryDescriptor or
+/// SumBits of a D. One row per key point, in the order of the features that they were made of.
+template <class Stored>
+struct StoredFeatures {
+  std::vector<Stored> descriptors;  ///< of zeros where the status is not ok
+  std::vector<Status> status;       ///< the others as Features have them
+  std::vector<KeyPoint> keypoints;
+  std::vector<Frame> frames;
+  std::vector<FrameConfidence> frame_confidence;
+  std::vector<std::uint32_t> neighbors;
+
+  [[nodiscard, gnu::always_inline]] std::size_t size() const noexcept { return status.size(); }
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// The descriptor that a storage is of, what its rows are made of in files, how it is said, and how it is made.
+template <class Stored>
+struct Storage;
+template <class D>
+struct Storage<HalfDescriptor<D>> {
+  using Descriptor = D;
+  using Value = std::uint16_t;
+  [[nodiscard]] static std::string name() { return "halves"; }
+  static void make(const float* values, HalfDescriptor<D>& out) noexcept { quantize(values, out); }
+};
+template <class D, int Bits, int Scale>
+struct Storage<CodedDescriptor<D, Bits, Scale>> {
+  using Descriptor = D;
+  using Value = std::uint8_t;
+  [[nodiscard]] static std::string name() {
+    return "codes of " + std::to_string(Bits) + " bits, steps of 1/" + std::to_string(Scale);
+  }
+  static void make(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept { quantize(values, out); }
+};
+template <class D, int Group>
+struct Storage<BinaryDescriptor<D, Group>> {
+  using Descriptor = D;
+  using Value = std::uint8_t;
+  [[nodiscard]] static std::string name() { return "bits of groups of " + std::to_string(Group); }
+  static void make(const float* values, BinaryDescriptor<D, Group>& out) noexcept { binarize(values, out); }
+};
+template <class D, int Bits, int Draws>
+struct Storage<SumBits<D, Bits, Draws>> {
+  using Descriptor = D;
+  using Value = std::uint8_t;
+  [[nodiscard]] static std::string name() {
+    return std::to_string(Bits) + " bits of sums of " + std::to_string(Draws) + ", steps of 1/" +
+           std::to_string(code_scale<D, 4>);
+  }
+  static void make(const float* values, SumBits<D, Bits, Draws>& out) noexcept {
+    NibbleDescriptor<D> nibbles;
+    quantize(values, nibbles);
+    binarize(nibbles, out);
+  }
+};
+
+/// Descriptors as the numbers that they are made of.
+template <class Stored>
+inline constexpr std::size_t stored_values = sizeof(Stored) / sizeof(typename Storage<Stored>::Value);
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// The layout of the descriptor and how it is stored, with all that belongs to it (bits, steps, groups): what two
+/// files, or two rows, must have in common. Allocates.
+template <class Stored>
+[[nodiscard]] std::string storage_layout() {
+  return layout_of<typename detail::Storage<Stored>::Descriptor>() + " in " + detail::Storage<Stored>::name();
+}
+
+/// Features in a storage. Rows whose status is not ok are of zeros. ok or bad_rows (vectors that are not as long as
+/// each other); `out` is empty then. Allocates `out`. Reentrant.
+template <class D, class Stored>
+[[nodiscard]] Status store(const Features<D>& features, StoredFeatures<Stored>& out) {
+  static_assert(std::is_same<typename detail::Storage<Stored>::Descriptor, D>::value,
+                "store() supports storages of the descriptor that the features are of");
+  out = StoredFeatures<Stored>{};
+  if (features.values.size() != features.size() * std::size_t{D::size}) return Status::bad_rows;
+  out.descriptors.resize(features.size());
+  for (std::size_t i = 0; i < features.size(); ++i) detail::Storage<Stored>::make(features[i], out.descriptors[i]);
+  out.status = features.status;
+  out.keypoints = features.keypoints;
+  out.frames = features.frames;
+  out.frame_confidence = features.frame_confidence;
+  out.neighbors = features.neighbors;
+  return Status::ok;
+}
+
+/// As features are saved: the same bytes on every machine, and so many for a row as the storage has, and 73 more. The
+/// file says storage_layout<Stored>().
+///
+/// Statuses: bad_rows (vectors that are not as long as each other; halves, frames or confidences that are not finite);
+/// `bytes` is empty then. Allocates the bytes, and the descriptors once more. Reentrant.
+template <class Stored>
+[[nodiscard]] Status save(const StoredFeatures<Stored>& features, std::vector<std::uint8_t>& bytes) {
+  using Value = typename detail::Storage<Stored>::Value;
+  using Columns = detail::ColumnsToSave<Value>;
+  constexpr std::size_t row_size = detail::stored_values<Stored>;
+  std::vector<Value> values(features.descriptors.size() * row_size);
+  if (!values.empty()) std::memcpy(values.data(), features.descriptors.data(), values.size() * sizeof(Value));
+  const std::string layout = storage_layout<Stored>();
+  const auto& const_values = values;
+  return detail::save_columns(detail::columns_of<Columns>(features, const_values, layout, row_size), bytes);
+}
+
+/// What save() made these bytes of. Statuses as for features: those of another descriptor, of another storage or scale,
+/// or of floats are other_descriptor. `out` has not changed if it is not ok.
+template <class Stored>
+[[nodiscard]] Status load(const std::uint8_t* bytes, std::size_t size, StoredFeatures<Stored>& out) {
+  using Value = typename detail::Storage<Stored>::Value;
+  using Columns = detail::ColumnsToLoad<Value>;
+  constexpr std::size_t row_size = detail::stored_values<Stored>;
+  StoredFeatures<Stored> loaded;
+  std::vector<Value> values;
+  const std::string layout = storage_layout<Stored>();
+  const Status status =
+      detail::load_columns(bytes, size, detail::columns_of<Columns>(loaded, values, layout, row_size));
+  if (status != Status::ok) return status;
+  loaded.descriptors.resize(loaded.size());
+  if (!values.empty()) std::memcpy(loaded.descriptors.data(), values.data(), values.size() * sizeof(Value));
+  out = std::move(loaded);
+  return Status::ok;
+}
+
+/// The same in a file: also no_file, as for features.
+template <class Stored>
+[[nodiscard]] Status save(const StoredFeatures<Stored>& features, const std::string& path) {
+  std::vector<std::uint8_t> bytes;
+  const Status status = save(features, bytes);
+  return status == Status::ok ? detail::replace_file(path, bytes) : status;
+}
+template <class Stored>
+[[nodiscard]] Status load(const std::string& path, StoredFeatures<Stored>& out) {
+  std::vector<std::uint8_t> bytes;
+  const Status status = detail::read_file(path, bytes);
+  return status == Status::ok ? load(bytes.data(), bytes.size(), out) : status;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_STORE_STORED_FEATURES_HPP
 
 // shortshot/recognition/match.hpp: the nearest descriptors of another set, exactly; pairs that are each other's
 // nearest; and those that are nearer than all others by far. Hosted only: allocates, starts threads.
@@ -12354,7 +12533,16 @@ struct Codebook {
   std::vector<std::string> instances;
   std::vector<std::uint32_t> class_of;  // of each instance
   std::vector<Codeword> codewords;
-  std::vector<float> values;  // codewords.size() * row_size
+  std::vector<float> values;         // codewords.size() * row_size, or
+  std::vector<std::uint8_t> packed;  // as many bytes, if descriptors are stored as codes or bits
+};
+
+/// Rows in any format, with places and frames: one of each a row.
+template <class Rows>
+struct PlacedRows {
+  Rows descriptors;
+  const KeyPoint* keypoints;
+  const Frame* frames;
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -12376,10 +12564,17 @@ inline namespace SHORTSHOT_CODE {
   return status;
 }
 
+template <int Bits>
+[[nodiscard]] Status check_values(const CodedRows<Bits>& rows) noexcept {
+  return validate(rows);
+}
+[[nodiscard]] inline Status check_values(const BitRows& rows) noexcept { return validate(rows); }
+
 /// The same, with places and frames that one can cast a vote from: also invalid_keypoint and bad_frame.
-[[nodiscard]] inline Status check_values(const FeatureRows& rows) noexcept {
-  Status status = validate(rows);
-  if (status == Status::ok) status = check_values(rows.descriptors);
+template <class Rows>
+[[nodiscard]] Status check_values(const PlacedRows<Rows>& rows) noexcept {
+  const bool is_complete = rows.descriptors.count == 0 || (rows.keypoints != nullptr && rows.frames != nullptr);
+  Status status = is_complete ? check_values(rows.descriptors) : Status::bad_rows;
   for (std::size_t row = 0; row < rows.descriptors.count && status == Status::ok; ++row) {
     if (!is_ok(rows.descriptors, row)) continue;
     status = is_finite(rows.keypoints[row].position) ? validate(rows.frames[row]) : Status::invalid_keypoint;
@@ -12399,15 +12594,35 @@ inline namespace SHORTSHOT_CODE {
   return {origin.x + component(0), origin.y + component(1), origin.z + component(2)};
 }
 
-[[nodiscard]] inline DescriptorRows rows_of(const Codebook& codebook) noexcept {
+/// The codewords as rows that can be compared with these, which are of the same layout.
+[[nodiscard]] inline DescriptorRows rows_like(const DescriptorRows&, const Codebook& codebook) noexcept {
   return {codebook.values.data(), codebook.codewords.size(), codebook.row_size, nullptr};
+}
+template <int Bits>
+[[nodiscard]] CodedRows<Bits> rows_like(const CodedRows<Bits>& rows, const Codebook& codebook) noexcept {
+  return {codebook.packed.data(), codebook.codewords.size(), codebook.row_size, rows.step, nullptr};
+}
+[[nodiscard]] inline BitRows rows_like(const BitRows&, const Codebook& codebook) noexcept {
+  return {codebook.packed.data(), codebook.codewords.size(), codebook.row_size, nullptr};
+}
+
+/// Appends a row to what the codebook has.
+inline void append(Codebook& codebook, const DescriptorRows& rows, std::size_t row) {
+  const float* const values = rows.values + row * rows.size;
+  codebook.values.insert(codebook.values.end(), values, values + rows.size);
+}
+template <class Rows>
+void append(Codebook& codebook, const Rows& rows, std::size_t row) {
+  const std::uint8_t* const bytes = rows.bytes + row * rows.size;
+  codebook.packed.insert(codebook.packed.end(), bytes, bytes + rows.size);
 }
 
 /// Are these the descriptors that it was made of?
-[[nodiscard]] inline Status validate_queries(const Codebook& codebook, const DescriptorRows& queries,
+[[nodiscard]] inline Status validate_queries(const Codebook& codebook, std::size_t row_size, bool are_packed,
                                              std::string_view layout) noexcept {
   if (codebook.codewords.empty()) return Status::not_trained;
-  return queries.size == codebook.row_size && layout == codebook.layout ? Status::ok : Status::other_descriptor;
+  const bool alike = row_size == codebook.row_size && are_packed == !codebook.packed.empty();
+  return alike && layout == codebook.layout ? Status::ok : Status::other_descriptor;
 }
 
 /// The number of a class, or of an instance; a new one if there is none of that name.
@@ -12434,9 +12649,10 @@ inline namespace SHORTSHOT_CODE {
 }
 
 /// Adds the rows, which were validated, of an object of which `center` is the center. All or nothing.
-[[nodiscard]] inline Status add(Codebook& codebook, const FeatureRows& rows, const Point& center,
-                                std::string_view object_class, std::string_view instance) {
-  const DescriptorRows& descriptors = rows.descriptors;
+template <class Rows>
+[[nodiscard]] Status add(Codebook& codebook, const PlacedRows<Rows>& rows, const Point& center,
+                         std::string_view object_class, std::string_view instance) {
+  const Rows& descriptors = rows.descriptors;
   std::vector<Point> centers(descriptors.count);
   std::size_t added = 0;
   for (std::size_t row = 0; row < descriptors.count; ++row) {
@@ -12451,9 +12667,7 @@ inline namespace SHORTSHOT_CODE {
   const std::uint32_t number = instance_number(codebook, class_number(codebook, object_class), instance);
   for (std::size_t row = 0; row < descriptors.count; ++row) {
     if (!is_ok(descriptors, row)) continue;
-    const std::size_t old_size = codebook.values.size();
-    codebook.values.resize(old_size + descriptors.size);
-    std::copy_n(descriptors.values + row * descriptors.size, descriptors.size, codebook.values.data() + old_size);
+    append(codebook, descriptors, row);
     codebook.codewords.push_back({number, centers[row]});
   }
   return Status::ok;
@@ -12608,6 +12822,8 @@ struct ActivationShares {
 /// two descriptors must have in common to be compared) and the number of values. Radii, and how frames are turned, must
 /// be the same in training and afterwards.
 ///
+/// Descriptors may be stored smaller (StoredFeatures); then they are compared as they are stored.
+///
 /// train() makes one, recognize() and activation_shares() ask it, save() and load() keep it. Calls that do not change
 /// it may run at the same time. All may throw what extract() may; a recognizer that ran out of memory in train() can
 /// only be assigned to or destroyed.
@@ -12675,19 +12891,23 @@ inline namespace SHORTSHOT_CODE {
 /// Votes that a thread takes at a time.
 inline constexpr std::size_t vote_block = 8;
 
-template <class Threads>
-[[nodiscard]] Status activate(const Recognizer& recognizer, const DescriptorRows& rows, std::string_view layout,
+/// Are these rows of a storage?
+template <class Rows>
+inline constexpr bool are_packed = !std::is_same<Rows, DescriptorRows>::value;
+
+template <class Rows, class Threads>
+[[nodiscard]] Status activate(const Recognizer& recognizer, const Rows& rows, std::string_view layout,
                               std::vector<Match>& matches, Threads& threads) {
   const Codebook& codebook = RecognizerAccess::codebook(recognizer);
   Status status = validate(recognizer.options());
-  if (status == Status::ok) status = validate_queries(codebook, rows, layout);
-  if (status == Status::ok) status = nearest(rows, rows_of(codebook), recognizer.options().neighbors, matches, threads);
-  return status;
+  if (status == Status::ok) status = validate_queries(codebook, rows.size, are_packed<Rows>, layout);
+  if (status != Status::ok) return status;
+  return nearest(rows, rows_like(rows, codebook), recognizer.options().neighbors, matches, threads);
 }
 
 /// In ascending order of classes.
-[[nodiscard]] inline std::vector<Vote> cast_votes(const Recognizer& recognizer, const FeatureRows& rows,
-                                                  const std::vector<Match>& matches) {
+[[nodiscard]] inline std::vector<Vote> cast_votes(const Recognizer& recognizer, const KeyPoint* keypoints,
+                                                  const Frame* frames, const std::vector<Match>& matches) {
   const auto& codewords = RecognizerAccess::codebook(recognizer).codewords;
   std::vector<Vote> votes;
   std::vector<std::size_t> places(recognizer.class_count() + 1);  // where the next vote for each class goes
@@ -12696,7 +12916,7 @@ template <class Threads>
     if (matches[i].row == no_row) continue;
     const Codebook::Codeword& codeword = codewords[matches[i].row];
     const std::size_t row = i / recognizer.options().neighbors;
-    const Point center = from_local(codeword.center, rows.keypoints[row].position, rows.frames[row]);
+    const Point center = from_local(codeword.center, keypoints[row].position, frames[row]);
     if (!is_finite(center)) continue;  // farther away than floats reach
     votes.push_back({center, recognizer.class_of(codeword.instance), codeword.instance});
     ++places[votes.back().object_class + 1];
@@ -12757,6 +12977,70 @@ inline void choose(const Recognizer& recognizer, const std::vector<Vote>& votes,
   }
 }
 
+[[nodiscard]] inline PlacedRows<DescriptorRows> placed(const FeatureRows& rows) noexcept {
+  return {rows.descriptors, rows.keypoints, rows.frames};
+}
+
+template <class Rows>
+[[nodiscard]] Status train_rows(Recognizer& recognizer, const PlacedRows<Rows>& rows, std::string_view layout,
+                                const Point& center, std::string_view object_class, std::string_view instance) {
+  Codebook& codebook = RecognizerAccess::codebook(recognizer);
+  Status status = check_values(rows);
+  if (status == Status::ok && !is_finite(center)) status = Status::invalid_keypoint;
+  if (status == Status::ok && recognizer.codeword_count() > 0)
+    status = validate_queries(codebook, rows.descriptors.size, are_packed<Rows>, layout);
+  if (status == Status::ok) status = add(codebook, rows, center, object_class, instance);
+  if (status == Status::ok && codebook.row_size == 0 && recognizer.codeword_count() > 0) {
+    codebook.layout = layout;
+    codebook.row_size = rows.descriptors.size;
+  }
+  return status;
+}
+
+template <class Rows, class Threads>
+[[nodiscard]] Status recognize_rows(const Recognizer& recognizer, const PlacedRows<Rows>& rows, std::string_view layout,
+                                    std::vector<Hypothesis>& out, Threads& threads) {
+  out.clear();
+  std::vector<Match> matches;
+  Status status = check_values(rows);
+  if (status == Status::ok) status = activate(recognizer, rows.descriptors, layout, matches, threads);
+  if (status != Status::ok) return status;
+  const std::vector<Vote> votes = cast_votes(recognizer, rows.keypoints, rows.frames, matches);
+  std::vector<Peak> peaks(votes.size());
+  auto&& executor = executor_of(threads, (votes.size() + vote_block - 1) / vote_block);
+  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
+  for_blocks(executor, team, votes.size(), vote_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      peaks[i] = density_for(recognizer, votes, votes[i].object_class).climb(votes[i]);
+  });
+  choose(recognizer, votes, peaks, out);
+  return Status::ok;
+}
+
+template <class Rows, class Threads>
+[[nodiscard]] Status shares_of_rows(const Recognizer& recognizer, const Rows& rows, std::string_view layout,
+                                    ActivationShares& out, Threads& threads) {
+  out.classes.clear();
+  out.instances.clear();
+  std::vector<Match> matches;
+  Status status = check_values(rows);
+  if (status == Status::ok) status = activate(recognizer, rows, layout, matches, threads);
+  if (status != Status::ok) return status;
+  out.classes.assign(recognizer.class_count(), 0.0f);
+  out.instances.assign(recognizer.instance_count(), 0.0f);
+  float activations = 0.0f;
+  for (const Match& match : matches) {
+    if (match.row == no_row) continue;
+    const std::uint32_t instance = RecognizerAccess::codebook(recognizer).codewords[match.row].instance;
+    out.classes[recognizer.class_of(instance)] += 1.0f;
+    out.instances[instance] += 1.0f;
+    activations += 1.0f;
+  }
+  for (float& share : out.classes) share /= std::max(activations, 1.0f);
+  for (float& share : out.instances) share /= std::max(activations, 1.0f);
+  return Status::ok;
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 
@@ -12772,17 +13056,7 @@ inline namespace SHORTSHOT_CODE {
 /// Nothing has changed then. Allocates 16 bytes for a codeword and 4 for each of its values.
 [[nodiscard]] inline Status train(Recognizer& recognizer, const FeatureRows& rows, std::string_view layout,
                                   const Point& center, std::string_view object_class, std::string_view instance) {
-  detail::Codebook& codebook = detail::RecognizerAccess::codebook(recognizer);
-  Status status = detail::check_values(rows);
-  if (status == Status::ok && !is_finite(center)) status = Status::invalid_keypoint;
-  if (status == Status::ok && recognizer.codeword_count() > 0)
-    status = detail::validate_queries(codebook, rows.descriptors, layout);
-  if (status == Status::ok) status = detail::add(codebook, rows, center, object_class, instance);
-  if (status == Status::ok && codebook.row_size == 0 && recognizer.codeword_count() > 0) {
-    codebook.layout = layout;
-    codebook.row_size = rows.descriptors.size;
-  }
-  return status;
+  return detail::train_rows(recognizer, detail::placed(rows), layout, center, object_class, instance);
 }
 
 /// The same for what extract() gives.
@@ -12806,22 +13080,7 @@ template <class D>
 template <class Threads = unsigned>
 [[nodiscard]] Status recognize(const Recognizer& recognizer, const FeatureRows& rows, std::string_view layout,
                                std::vector<Hypothesis>& out, Threads&& threads = 1u) {
-  out.clear();
-  std::vector<Match> matches;
-  Status status = detail::check_values(rows);
-  if (status == Status::ok) status = detail::activate(recognizer, rows.descriptors, layout, matches, threads);
-  if (status != Status::ok) return status;
-  const std::vector<detail::Vote> votes = detail::cast_votes(recognizer, rows, matches);
-  std::vector<detail::Peak> peaks(votes.size());
-  auto&& executor = detail::executor_of(threads, (votes.size() + detail::vote_block - 1) / detail::vote_block);
-  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-  detail::for_blocks(executor, team, votes.size(), detail::vote_block,
-                     [&](std::size_t, std::size_t begin, std::size_t end) {
-                       for (std::size_t i = begin; i < end; ++i)
-                         peaks[i] = detail::density_for(recognizer, votes, votes[i].object_class).climb(votes[i]);
-                     });
-  detail::choose(recognizer, votes, peaks, out);
-  return Status::ok;
+  return detail::recognize_rows(recognizer, detail::placed(rows), layout, out, threads);
 }
 
 template <class D, class Threads = unsigned>
@@ -12835,25 +13094,7 @@ template <class D, class Threads = unsigned>
 template <class Threads = unsigned>
 [[nodiscard]] Status activation_shares(const Recognizer& recognizer, const DescriptorRows& rows,
                                        std::string_view layout, ActivationShares& out, Threads&& threads = 1u) {
-  out.classes.clear();
-  out.instances.clear();
-  std::vector<Match> matches;
-  Status status = detail::check_values(rows);
-  if (status == Status::ok) status = detail::activate(recognizer, rows, layout, matches, threads);
-  if (status != Status::ok) return status;
-  out.classes.assign(recognizer.class_count(), 0.0f);
-  out.instances.assign(recognizer.instance_count(), 0.0f);
-  float activations = 0.0f;
-  for (const Match& match : matches) {
-    if (match.row == no_row) continue;
-    const std::uint32_t instance = detail::RecognizerAccess::codebook(recognizer).codewords[match.row].instance;
-    out.classes[recognizer.class_of(instance)] += 1.0f;
-    out.instances[instance] += 1.0f;
-    activations += 1.0f;
-  }
-  for (float& share : out.classes) share /= std::max(activations, 1.0f);
-  for (float& share : out.instances) share /= std::max(activations, 1.0f);
-  return Status::ok;
+  return detail::shares_of_rows(recognizer, rows, layout, out, threads);
 }
 
 template <class D, class Threads = unsigned>
@@ -12866,6 +13107,70 @@ template <class D, class Threads = unsigned>
 }  // namespace shortshot
 #endif  // SHORTSHOT_RECOGNITION_RECOGNIZE_HPP
 
+// shortshot/recognition/recognize_stored.hpp: recognizers of descriptors that are stored smaller: they are trained with
+// them, compare and save them as they are. Hosted only: allocates, starts threads.
+#ifndef SHORTSHOT_RECOGNITION_RECOGNIZE_STORED_HPP
+#define SHORTSHOT_RECOGNITION_RECOGNIZE_STORED_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// What `use` makes of the rows: of codes or bits as they are, of halves as the floats that they stand for.
+template <class Stored, class Use>
+[[nodiscard]] Status with_rows(const StoredFeatures<Stored>& features, const Use& use) {
+  const bool is_complete = features.descriptors.size() == features.size() &&
+                           features.keypoints.size() == features.size() && features.frames.size() == features.size();
+  if (!is_complete) return Status::bad_rows;
+  if constexpr (std::is_same<typename Storage<Stored>::Value, std::uint16_t>::value) {
+    constexpr auto row_size = static_cast<std::size_t>(Stored::size);
+    std::vector<float> values(features.size() * row_size);
+    for (std::size_t i = 0; i < features.size(); ++i) dequantize(features.descriptors[i], values.data() + i * row_size);
+    const DescriptorRows rows{values.data(), features.size(), row_size, features.status.data()};
+    return use(PlacedRows<DescriptorRows>{rows, features.keypoints.data(), features.frames.data()});
+  } else {
+    const auto rows = rows_of(features.descriptors, features.status.data());
+    return use(PlacedRows<std::decay_t<decltype(rows)>>{rows, features.keypoints.data(), features.frames.data()});
+  }
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// As for features, with the distances of the storage. What a recognizer is for is a descriptor and its storage, which
+/// is said by storage_layout<Stored>(), also to load(): others are other_descriptor. Also bad_rows: vectors that are
+/// not as long as each other. Allocates 16 bytes for a codeword, and the stored descriptor (of halves the floats).
+template <class Stored>
+[[nodiscard]] Status train(Recognizer& recognizer, const StoredFeatures<Stored>& features, const Point& center,
+                           std::string_view object_class, std::string_view instance) {
+  return detail::with_rows(features, [&](const auto& rows) {
+    return detail::train_rows(recognizer, rows, storage_layout<Stored>(), center, object_class, instance);
+  });
+}
+template <class Stored, class Threads = unsigned>
+[[nodiscard]] Status recognize(const Recognizer& recognizer, const StoredFeatures<Stored>& features,
+                               std::vector<Hypothesis>& out, Threads&& threads = 1u) {
+  out.clear();
+  return detail::with_rows(features, [&](const auto& rows) {
+    return detail::recognize_rows(recognizer, rows, storage_layout<Stored>(), out, threads);
+  });
+}
+template <class Stored, class Threads = unsigned>
+[[nodiscard]] Status activation_shares(const Recognizer& recognizer, const StoredFeatures<Stored>& features,
+                                       ActivationShares& out, Threads&& threads = 1u) {
+  out.classes.clear();
+  out.instances.clear();
+  return detail::with_rows(features, [&](const auto& rows) {
+    return detail::shares_of_rows(recognizer, rows.descriptors, storage_layout<Stored>(), out, threads);
+  });
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_RECOGNITION_RECOGNIZE_STORED_HPP
+
 // shortshot/recognition/recognizer_model.hpp: a trained recognizer as bytes, or in a file. Hosted only: allocates.
 //
 // Between what byte_stream.hpp puts around it ("SSHOTREC", the version and the checksum):
@@ -12875,7 +13180,7 @@ template <class D, class Threads = unsigned>
 //     count of classes, for each: name (length, characters)
 //     count of instances, for each: 4 bytes class, name (length, characters)
 //     count of codewords, for each: 4 bytes instance, 3 floats center in the key point's frame
-//     values, row by row
+//     values, row by row: floats; of version 2 bytes, which are codes or bits, as the layout says
 #ifndef SHORTSHOT_RECOGNITION_RECOGNIZER_MODEL_HPP
 #define SHORTSHOT_RECOGNITION_RECOGNIZER_MODEL_HPP
 
@@ -12883,6 +13188,7 @@ namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
 inline constexpr FileKind recognizer_file{"SSHOTREC", 1};
+inline constexpr FileKind packed_recognizer_file{"SSHOTREC", 2};
 
 inline void write(ByteWriter& to, const RecognizerOptions& options, const Codebook& codebook) {
   to.name(codebook.layout);
@@ -12903,12 +13209,14 @@ inline void write(ByteWriter& to, const RecognizerOptions& options, const Codebo
     to.point(codeword.center);
   }
   to.reals(codebook.values.data(), codebook.values.size());
+  for (const std::uint8_t byte : codebook.packed) to.number(byte);
 }
 
 /// False if not all of it can be: then what has been read is of no use.
-[[nodiscard]] inline bool read(ByteReader& from, RecognizerOptions& options, Codebook& codebook) {
+[[nodiscard]] inline bool read(ByteReader& from, bool is_packed, RecognizerOptions& options, Codebook& codebook) {
+  const std::size_t value_bytes = is_packed ? 1 : sizeof(float);
   codebook.layout = from.name();
-  codebook.row_size = from.count(sizeof(float));
+  codebook.row_size = from.count(value_bytes);
   options.bandwidth = from.real();
   options.neighbors = from.number<std::uint32_t>();
   options.most = from.number<std::uint32_t>();
@@ -12925,11 +13233,16 @@ inline void write(ByteWriter& to, const RecognizerOptions& options, const Codebo
     const std::uint32_t instance = from.index(codebook.instances.size());
     codebook.codewords.push_back({instance, from.point()});
   }
-  const std::size_t row_bytes = sizeof(float) * codebook.row_size;
+  const std::size_t row_bytes = value_bytes * codebook.row_size;
   from.require(row_bytes > 0 && from.left() % row_bytes == 0 && from.left() / row_bytes == codewords);
   if (!from.good()) return false;
-  codebook.values.resize(codewords * codebook.row_size);
-  from.reals(codebook.values.data(), codebook.values.size());
+  if (is_packed) {
+    codebook.packed.resize(codewords * codebook.row_size);
+    for (std::uint8_t& byte : codebook.packed) byte = from.number<std::uint8_t>();
+  } else {
+    codebook.values.resize(codewords * codebook.row_size);
+    from.reals(codebook.values.data(), codebook.values.size());
+  }
   return from.good();
 }
 
@@ -12946,7 +13259,9 @@ inline namespace SHORTSHOT_CODE {
   if (recognizer.codeword_count() == 0) return Status::not_trained;
   if (validate(recognizer.options()) != Status::ok) return Status::bad_option;
   const std::size_t codeword_bytes = 16 + sizeof(float) * recognizer.row_size();
-  detail::ByteWriter to(bytes, detail::recognizer_file, 4096 + recognizer.codeword_count() * codeword_bytes);
+  const bool is_packed = !detail::RecognizerAccess::codebook(recognizer).packed.empty();
+  const detail::FileKind& kind = is_packed ? detail::packed_recognizer_file : detail::recognizer_file;
+  detail::ByteWriter to(bytes, kind, 4096 + recognizer.codeword_count() * codeword_bytes);
   detail::write(to, recognizer.options(), detail::RecognizerAccess::codebook(recognizer));
   to.finish();
   return Status::ok;
@@ -12960,12 +13275,14 @@ inline namespace SHORTSHOT_CODE {
 [[nodiscard]] inline Status load(const std::uint8_t* bytes, std::size_t size, std::string_view layout,
                                  Recognizer& out) {
   detail::ByteReader body(nullptr, 0);
-  const Status status = detail::open_checked(bytes, size, detail::recognizer_file, body);
+  Status status = detail::open_checked(bytes, size, detail::recognizer_file, body);
+  const bool is_packed = status == Status::other_version;
+  if (is_packed) status = detail::open_checked(bytes, size, detail::packed_recognizer_file, body);
   if (status != Status::ok) return status;
   Recognizer loaded;
   detail::Codebook& codebook = detail::RecognizerAccess::codebook(loaded);
   RecognizerOptions options;
-  if (!detail::read(body, options, codebook)) return Status::damaged_model;
+  if (!detail::read(body, is_packed, options, codebook)) return Status::damaged_model;
   if (codebook.layout != layout) return Status::other_descriptor;
   loaded.set_options(options);
   out = std::move(loaded);

@@ -28,9 +28,11 @@
 #include "batch/describe_cloud.hpp"
 #include "batch/to_pcl.hpp"
 #include "store/features_file.hpp"
+#include "store/stored_features.hpp"
 #include "recognition/match.hpp"
 #include "recognition/pose.hpp"
 #include "recognition/recognize.hpp"
+#include "recognition/recognize_stored.hpp"
 #include "recognition/recognizer_model.hpp"
 #endif
 

@@ -1,7 +1,6 @@
 // shortshot/recognition/codebook.hpp: what a recognizer has learnt. Hosted only: allocates.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -11,12 +10,14 @@
 #include "../base/math.hpp"
 #include "../base/unfused.hpp"
 #include "../cloud/cloud.hpp"
+#include "../cloud/keypoint.hpp"
 #include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../frame/frame.hpp"
 #include "../status.hpp"
 #include "descriptor_rows.hpp"
 #include "match.hpp"
+#include "packed_rows.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_TYPES {
@@ -34,7 +35,16 @@ struct Codebook {
   std::vector<std::string> instances;
   std::vector<std::uint32_t> class_of;  // of each instance
   std::vector<Codeword> codewords;
-  std::vector<float> values;  // codewords.size() * row_size
+  std::vector<float> values;         // codewords.size() * row_size, or
+  std::vector<std::uint8_t> packed;  // as many bytes, if descriptors are stored as codes or bits
+};
+
+/// Rows in any format, with places and frames: one of each a row.
+template <class Rows>
+struct PlacedRows {
+  Rows descriptors;
+  const KeyPoint* keypoints;
+  const Frame* frames;
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -56,10 +66,17 @@ inline namespace SHORTSHOT_CODE {
   return status;
 }
 
+template <int Bits>
+[[nodiscard]] Status check_values(const CodedRows<Bits>& rows) noexcept {
+  return validate(rows);
+}
+[[nodiscard]] inline Status check_values(const BitRows& rows) noexcept { return validate(rows); }
+
 /// The same, with places and frames that one can cast a vote from: also invalid_keypoint and bad_frame.
-[[nodiscard]] inline Status check_values(const FeatureRows& rows) noexcept {
-  Status status = validate(rows);
-  if (status == Status::ok) status = check_values(rows.descriptors);
+template <class Rows>
+[[nodiscard]] Status check_values(const PlacedRows<Rows>& rows) noexcept {
+  const bool is_complete = rows.descriptors.count == 0 || (rows.keypoints != nullptr && rows.frames != nullptr);
+  Status status = is_complete ? check_values(rows.descriptors) : Status::bad_rows;
   for (std::size_t row = 0; row < rows.descriptors.count && status == Status::ok; ++row) {
     if (!is_ok(rows.descriptors, row)) continue;
     status = is_finite(rows.keypoints[row].position) ? validate(rows.frames[row]) : Status::invalid_keypoint;
@@ -79,15 +96,35 @@ inline namespace SHORTSHOT_CODE {
   return {origin.x + component(0), origin.y + component(1), origin.z + component(2)};
 }
 
-[[nodiscard]] inline DescriptorRows rows_of(const Codebook& codebook) noexcept {
+/// The codewords as rows that can be compared with these, which are of the same layout.
+[[nodiscard]] inline DescriptorRows rows_like(const DescriptorRows&, const Codebook& codebook) noexcept {
   return {codebook.values.data(), codebook.codewords.size(), codebook.row_size, nullptr};
+}
+template <int Bits>
+[[nodiscard]] CodedRows<Bits> rows_like(const CodedRows<Bits>& rows, const Codebook& codebook) noexcept {
+  return {codebook.packed.data(), codebook.codewords.size(), codebook.row_size, rows.step, nullptr};
+}
+[[nodiscard]] inline BitRows rows_like(const BitRows&, const Codebook& codebook) noexcept {
+  return {codebook.packed.data(), codebook.codewords.size(), codebook.row_size, nullptr};
+}
+
+/// Appends a row to what the codebook has.
+inline void append(Codebook& codebook, const DescriptorRows& rows, std::size_t row) {
+  const float* const values = rows.values + row * rows.size;
+  codebook.values.insert(codebook.values.end(), values, values + rows.size);
+}
+template <class Rows>
+void append(Codebook& codebook, const Rows& rows, std::size_t row) {
+  const std::uint8_t* const bytes = rows.bytes + row * rows.size;
+  codebook.packed.insert(codebook.packed.end(), bytes, bytes + rows.size);
 }
 
 /// Are these the descriptors that it was made of?
-[[nodiscard]] inline Status validate_queries(const Codebook& codebook, const DescriptorRows& queries,
+[[nodiscard]] inline Status validate_queries(const Codebook& codebook, std::size_t row_size, bool are_packed,
                                              std::string_view layout) noexcept {
   if (codebook.codewords.empty()) return Status::not_trained;
-  return queries.size == codebook.row_size && layout == codebook.layout ? Status::ok : Status::other_descriptor;
+  const bool alike = row_size == codebook.row_size && are_packed == !codebook.packed.empty();
+  return alike && layout == codebook.layout ? Status::ok : Status::other_descriptor;
 }
 
 /// The number of a class, or of an instance; a new one if there is none of that name.
@@ -114,9 +151,10 @@ inline namespace SHORTSHOT_CODE {
 }
 
 /// Adds the rows, which were validated, of an object of which `center` is the center. All or nothing.
-[[nodiscard]] inline Status add(Codebook& codebook, const FeatureRows& rows, const Point& center,
-                                std::string_view object_class, std::string_view instance) {
-  const DescriptorRows& descriptors = rows.descriptors;
+template <class Rows>
+[[nodiscard]] Status add(Codebook& codebook, const PlacedRows<Rows>& rows, const Point& center,
+                         std::string_view object_class, std::string_view instance) {
+  const Rows& descriptors = rows.descriptors;
   std::vector<Point> centers(descriptors.count);
   std::size_t added = 0;
   for (std::size_t row = 0; row < descriptors.count; ++row) {
@@ -131,9 +169,7 @@ inline namespace SHORTSHOT_CODE {
   const std::uint32_t number = instance_number(codebook, class_number(codebook, object_class), instance);
   for (std::size_t row = 0; row < descriptors.count; ++row) {
     if (!is_ok(descriptors, row)) continue;
-    const std::size_t old_size = codebook.values.size();
-    codebook.values.resize(old_size + descriptors.size);
-    std::copy_n(descriptors.values + row * descriptors.size, descriptors.size, codebook.values.data() + old_size);
+    append(codebook, descriptors, row);
     codebook.codewords.push_back({number, centers[row]});
   }
   return Status::ok;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "../base/unfused.hpp"
@@ -43,19 +44,23 @@ inline namespace SHORTSHOT_CODE {
 /// Votes that a thread takes at a time.
 inline constexpr std::size_t vote_block = 8;
 
-template <class Threads>
-[[nodiscard]] Status activate(const Recognizer& recognizer, const DescriptorRows& rows, std::string_view layout,
+/// Are these rows of a storage?
+template <class Rows>
+inline constexpr bool are_packed = !std::is_same<Rows, DescriptorRows>::value;
+
+template <class Rows, class Threads>
+[[nodiscard]] Status activate(const Recognizer& recognizer, const Rows& rows, std::string_view layout,
                               std::vector<Match>& matches, Threads& threads) {
   const Codebook& codebook = RecognizerAccess::codebook(recognizer);
   Status status = validate(recognizer.options());
-  if (status == Status::ok) status = validate_queries(codebook, rows, layout);
-  if (status == Status::ok) status = nearest(rows, rows_of(codebook), recognizer.options().neighbors, matches, threads);
-  return status;
+  if (status == Status::ok) status = validate_queries(codebook, rows.size, are_packed<Rows>, layout);
+  if (status != Status::ok) return status;
+  return nearest(rows, rows_like(rows, codebook), recognizer.options().neighbors, matches, threads);
 }
 
 /// In ascending order of classes.
-[[nodiscard]] inline std::vector<Vote> cast_votes(const Recognizer& recognizer, const FeatureRows& rows,
-                                                  const std::vector<Match>& matches) {
+[[nodiscard]] inline std::vector<Vote> cast_votes(const Recognizer& recognizer, const KeyPoint* keypoints,
+                                                  const Frame* frames, const std::vector<Match>& matches) {
   const auto& codewords = RecognizerAccess::codebook(recognizer).codewords;
   std::vector<Vote> votes;
   std::vector<std::size_t> places(recognizer.class_count() + 1);  // where the next vote for each class goes
@@ -64,7 +69,7 @@ template <class Threads>
     if (matches[i].row == no_row) continue;
     const Codebook::Codeword& codeword = codewords[matches[i].row];
     const std::size_t row = i / recognizer.options().neighbors;
-    const Point center = from_local(codeword.center, rows.keypoints[row].position, rows.frames[row]);
+    const Point center = from_local(codeword.center, keypoints[row].position, frames[row]);
     if (!is_finite(center)) continue;  // farther away than floats reach
     votes.push_back({center, recognizer.class_of(codeword.instance), codeword.instance});
     ++places[votes.back().object_class + 1];
@@ -125,6 +130,70 @@ inline void choose(const Recognizer& recognizer, const std::vector<Vote>& votes,
   }
 }
 
+[[nodiscard]] inline PlacedRows<DescriptorRows> placed(const FeatureRows& rows) noexcept {
+  return {rows.descriptors, rows.keypoints, rows.frames};
+}
+
+template <class Rows>
+[[nodiscard]] Status train_rows(Recognizer& recognizer, const PlacedRows<Rows>& rows, std::string_view layout,
+                                const Point& center, std::string_view object_class, std::string_view instance) {
+  Codebook& codebook = RecognizerAccess::codebook(recognizer);
+  Status status = check_values(rows);
+  if (status == Status::ok && !is_finite(center)) status = Status::invalid_keypoint;
+  if (status == Status::ok && recognizer.codeword_count() > 0)
+    status = validate_queries(codebook, rows.descriptors.size, are_packed<Rows>, layout);
+  if (status == Status::ok) status = add(codebook, rows, center, object_class, instance);
+  if (status == Status::ok && codebook.row_size == 0 && recognizer.codeword_count() > 0) {
+    codebook.layout = layout;
+    codebook.row_size = rows.descriptors.size;
+  }
+  return status;
+}
+
+template <class Rows, class Threads>
+[[nodiscard]] Status recognize_rows(const Recognizer& recognizer, const PlacedRows<Rows>& rows, std::string_view layout,
+                                    std::vector<Hypothesis>& out, Threads& threads) {
+  out.clear();
+  std::vector<Match> matches;
+  Status status = check_values(rows);
+  if (status == Status::ok) status = activate(recognizer, rows.descriptors, layout, matches, threads);
+  if (status != Status::ok) return status;
+  const std::vector<Vote> votes = cast_votes(recognizer, rows.keypoints, rows.frames, matches);
+  std::vector<Peak> peaks(votes.size());
+  auto&& executor = executor_of(threads, (votes.size() + vote_block - 1) / vote_block);
+  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
+  for_blocks(executor, team, votes.size(), vote_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      peaks[i] = density_for(recognizer, votes, votes[i].object_class).climb(votes[i]);
+  });
+  choose(recognizer, votes, peaks, out);
+  return Status::ok;
+}
+
+template <class Rows, class Threads>
+[[nodiscard]] Status shares_of_rows(const Recognizer& recognizer, const Rows& rows, std::string_view layout,
+                                    ActivationShares& out, Threads& threads) {
+  out.classes.clear();
+  out.instances.clear();
+  std::vector<Match> matches;
+  Status status = check_values(rows);
+  if (status == Status::ok) status = activate(recognizer, rows, layout, matches, threads);
+  if (status != Status::ok) return status;
+  out.classes.assign(recognizer.class_count(), 0.0f);
+  out.instances.assign(recognizer.instance_count(), 0.0f);
+  float activations = 0.0f;
+  for (const Match& match : matches) {
+    if (match.row == no_row) continue;
+    const std::uint32_t instance = RecognizerAccess::codebook(recognizer).codewords[match.row].instance;
+    out.classes[recognizer.class_of(instance)] += 1.0f;
+    out.instances[instance] += 1.0f;
+    activations += 1.0f;
+  }
+  for (float& share : out.classes) share /= std::max(activations, 1.0f);
+  for (float& share : out.instances) share /= std::max(activations, 1.0f);
+  return Status::ok;
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 
@@ -140,17 +209,7 @@ inline namespace SHORTSHOT_CODE {
 /// Nothing has changed then. Allocates 16 bytes for a codeword and 4 for each of its values.
 [[nodiscard]] inline Status train(Recognizer& recognizer, const FeatureRows& rows, std::string_view layout,
                                   const Point& center, std::string_view object_class, std::string_view instance) {
-  detail::Codebook& codebook = detail::RecognizerAccess::codebook(recognizer);
-  Status status = detail::check_values(rows);
-  if (status == Status::ok && !is_finite(center)) status = Status::invalid_keypoint;
-  if (status == Status::ok && recognizer.codeword_count() > 0)
-    status = detail::validate_queries(codebook, rows.descriptors, layout);
-  if (status == Status::ok) status = detail::add(codebook, rows, center, object_class, instance);
-  if (status == Status::ok && codebook.row_size == 0 && recognizer.codeword_count() > 0) {
-    codebook.layout = layout;
-    codebook.row_size = rows.descriptors.size;
-  }
-  return status;
+  return detail::train_rows(recognizer, detail::placed(rows), layout, center, object_class, instance);
 }
 
 /// The same for what extract() gives.
@@ -174,22 +233,7 @@ template <class D>
 template <class Threads = unsigned>
 [[nodiscard]] Status recognize(const Recognizer& recognizer, const FeatureRows& rows, std::string_view layout,
                                std::vector<Hypothesis>& out, Threads&& threads = 1u) {
-  out.clear();
-  std::vector<Match> matches;
-  Status status = detail::check_values(rows);
-  if (status == Status::ok) status = detail::activate(recognizer, rows.descriptors, layout, matches, threads);
-  if (status != Status::ok) return status;
-  const std::vector<detail::Vote> votes = detail::cast_votes(recognizer, rows, matches);
-  std::vector<detail::Peak> peaks(votes.size());
-  auto&& executor = detail::executor_of(threads, (votes.size() + detail::vote_block - 1) / detail::vote_block);
-  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-  detail::for_blocks(executor, team, votes.size(), detail::vote_block,
-                     [&](std::size_t, std::size_t begin, std::size_t end) {
-                       for (std::size_t i = begin; i < end; ++i)
-                         peaks[i] = detail::density_for(recognizer, votes, votes[i].object_class).climb(votes[i]);
-                     });
-  detail::choose(recognizer, votes, peaks, out);
-  return Status::ok;
+  return detail::recognize_rows(recognizer, detail::placed(rows), layout, out, threads);
 }
 
 template <class D, class Threads = unsigned>
@@ -203,25 +247,7 @@ template <class D, class Threads = unsigned>
 template <class Threads = unsigned>
 [[nodiscard]] Status activation_shares(const Recognizer& recognizer, const DescriptorRows& rows,
                                        std::string_view layout, ActivationShares& out, Threads&& threads = 1u) {
-  out.classes.clear();
-  out.instances.clear();
-  std::vector<Match> matches;
-  Status status = detail::check_values(rows);
-  if (status == Status::ok) status = detail::activate(recognizer, rows, layout, matches, threads);
-  if (status != Status::ok) return status;
-  out.classes.assign(recognizer.class_count(), 0.0f);
-  out.instances.assign(recognizer.instance_count(), 0.0f);
-  float activations = 0.0f;
-  for (const Match& match : matches) {
-    if (match.row == no_row) continue;
-    const std::uint32_t instance = detail::RecognizerAccess::codebook(recognizer).codewords[match.row].instance;
-    out.classes[recognizer.class_of(instance)] += 1.0f;
-    out.instances[instance] += 1.0f;
-    activations += 1.0f;
-  }
-  for (float& share : out.classes) share /= std::max(activations, 1.0f);
-  for (float& share : out.instances) share /= std::max(activations, 1.0f);
-  return Status::ok;
+  return detail::shares_of_rows(recognizer, rows, layout, out, threads);
 }
 
 template <class D, class Threads = unsigned>

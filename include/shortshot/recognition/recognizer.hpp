@@ -57,6 +57,8 @@ struct ActivationShares {
 /// two descriptors must have in common to be compared) and the number of values. Radii, and how frames are turned, must
 /// be the same in training and afterwards.
 ///
+/// Descriptors may be stored smaller (StoredFeatures); then they are compared as they are stored.
+///
 /// train() makes one, recognize() and activation_shares() ask it, save() and load() keep it. Calls that do not change
 /// it may run at the same time. All may throw what extract() may; a recognizer that ran out of memory in train() can
 /// only be assigned to or destroyed.

@@ -7,7 +7,7 @@
 //     count of classes, for each: name (length, characters)
 //     count of instances, for each: 4 bytes class, name (length, characters)
 //     count of codewords, for each: 4 bytes instance, 3 floats center in the key point's frame
-//     values, row by row
+//     values, row by row: floats; of version 2 bytes, which are codes or bits, as the layout says
 #pragma once
 
 #include <cstddef>
@@ -30,6 +30,7 @@ namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
 inline constexpr FileKind recognizer_file{"SSHOTREC", 1};
+inline constexpr FileKind packed_recognizer_file{"SSHOTREC", 2};
 
 inline void write(ByteWriter& to, const RecognizerOptions& options, const Codebook& codebook) {
   to.name(codebook.layout);
@@ -50,12 +51,14 @@ inline void write(ByteWriter& to, const RecognizerOptions& options, const Codebo
     to.point(codeword.center);
   }
   to.reals(codebook.values.data(), codebook.values.size());
+  for (const std::uint8_t byte : codebook.packed) to.number(byte);
 }
 
 /// False if not all of it can be: then what has been read is of no use.
-[[nodiscard]] inline bool read(ByteReader& from, RecognizerOptions& options, Codebook& codebook) {
+[[nodiscard]] inline bool read(ByteReader& from, bool is_packed, RecognizerOptions& options, Codebook& codebook) {
+  const std::size_t value_bytes = is_packed ? 1 : sizeof(float);
   codebook.layout = from.name();
-  codebook.row_size = from.count(sizeof(float));
+  codebook.row_size = from.count(value_bytes);
   options.bandwidth = from.real();
   options.neighbors = from.number<std::uint32_t>();
   options.most = from.number<std::uint32_t>();
@@ -72,11 +75,16 @@ inline void write(ByteWriter& to, const RecognizerOptions& options, const Codebo
     const std::uint32_t instance = from.index(codebook.instances.size());
     codebook.codewords.push_back({instance, from.point()});
   }
-  const std::size_t row_bytes = sizeof(float) * codebook.row_size;
+  const std::size_t row_bytes = value_bytes * codebook.row_size;
   from.require(row_bytes > 0 && from.left() % row_bytes == 0 && from.left() / row_bytes == codewords);
   if (!from.good()) return false;
-  codebook.values.resize(codewords * codebook.row_size);
-  from.reals(codebook.values.data(), codebook.values.size());
+  if (is_packed) {
+    codebook.packed.resize(codewords * codebook.row_size);
+    for (std::uint8_t& byte : codebook.packed) byte = from.number<std::uint8_t>();
+  } else {
+    codebook.values.resize(codewords * codebook.row_size);
+    from.reals(codebook.values.data(), codebook.values.size());
+  }
   return from.good();
 }
 
@@ -93,7 +101,9 @@ inline namespace SHORTSHOT_CODE {
   if (recognizer.codeword_count() == 0) return Status::not_trained;
   if (validate(recognizer.options()) != Status::ok) return Status::bad_option;
   const std::size_t codeword_bytes = 16 + sizeof(float) * recognizer.row_size();
-  detail::ByteWriter to(bytes, detail::recognizer_file, 4096 + recognizer.codeword_count() * codeword_bytes);
+  const bool is_packed = !detail::RecognizerAccess::codebook(recognizer).packed.empty();
+  const detail::FileKind& kind = is_packed ? detail::packed_recognizer_file : detail::recognizer_file;
+  detail::ByteWriter to(bytes, kind, 4096 + recognizer.codeword_count() * codeword_bytes);
   detail::write(to, recognizer.options(), detail::RecognizerAccess::codebook(recognizer));
   to.finish();
   return Status::ok;
@@ -107,12 +117,14 @@ inline namespace SHORTSHOT_CODE {
 [[nodiscard]] inline Status load(const std::uint8_t* bytes, std::size_t size, std::string_view layout,
                                  Recognizer& out) {
   detail::ByteReader body(nullptr, 0);
-  const Status status = detail::open_checked(bytes, size, detail::recognizer_file, body);
+  Status status = detail::open_checked(bytes, size, detail::recognizer_file, body);
+  const bool is_packed = status == Status::other_version;
+  if (is_packed) status = detail::open_checked(bytes, size, detail::packed_recognizer_file, body);
   if (status != Status::ok) return status;
   Recognizer loaded;
   detail::Codebook& codebook = detail::RecognizerAccess::codebook(loaded);
   RecognizerOptions options;
-  if (!detail::read(body, options, codebook)) return Status::damaged_model;
+  if (!detail::read(body, is_packed, options, codebook)) return Status::damaged_model;
   if (codebook.layout != layout) return Status::other_descriptor;
   loaded.set_options(options);
   out = std::move(loaded);

@@ -3,7 +3,7 @@
 // Between what byte_stream.hpp puts around it ("SSHOTFEA", the version and the checksum), n rows of s values:
 //
 //     layout (length, characters), s, n
-//     values: n * s floats, row by row
+//     values: n * s floats, row by row; or what they are stored as (stored_features.hpp), which the layout says then
 //     statuses: n bytes
 //     key points, for each: 3 floats position, float intensity, 3 bytes red, green, blue, 1 byte: 1 if there is a color
 //       plus 2 if there is an intensity
@@ -36,16 +36,28 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr FileKind features_file{"SSHOTFEA", 1};
 
+/// Values of a row may be floats, halves or bytes.
+[[nodiscard]] inline bool is_value(float value) noexcept { return math::is_finite(value); }
+[[nodiscard]] inline bool is_value(std::uint16_t half) noexcept { return (half & 0x7C00u) != 0x7C00u; }
+[[nodiscard]] inline bool is_value(std::uint8_t) noexcept { return true; }
+inline void write_value(ByteWriter& to, float value) { to.real(value); }
+inline void write_value(ByteWriter& to, std::uint16_t half) { to.number(half); }
+inline void write_value(ByteWriter& to, std::uint8_t byte) { to.number(byte); }
+inline void read_value(ByteReader& from, float& value) noexcept { value = from.any_real(); }
+inline void read_value(ByteReader& from, std::uint16_t& half) noexcept { half = from.number<std::uint16_t>(); }
+inline void read_value(ByteReader& from, std::uint8_t& byte) noexcept { byte = from.number<std::uint8_t>(); }
+
 /// Of a row, without its values.
 inline constexpr std::size_t feature_bytes = 1 + (3 + 1) * sizeof(float) + 4 + (9 + 3) * sizeof(float) + 4;
 
 /// The vectors of a Features<D>, or of a const one: what follows is compiled once for all D, and, being templates, not
 /// at all where no features are saved.
-template <template <class> class MaybeConst>
+template <template <class> class MaybeConst, class Number>
 struct FeatureColumns {
+  using Value = Number;
   std::string_view layout;
   std::size_t row_size;
-  MaybeConst<std::vector<float>>& values;
+  MaybeConst<std::vector<Value>>& values;
   MaybeConst<std::vector<Status>>& status;
   MaybeConst<std::vector<KeyPoint>>& keypoints;
   MaybeConst<std::vector<Frame>>& frames;
@@ -54,14 +66,17 @@ struct FeatureColumns {
 };
 template <class T>
 using Same = T;
-using ColumnsToSave = FeatureColumns<std::add_const_t>;
-using ColumnsToLoad = FeatureColumns<Same>;
+template <class Value>
+using ColumnsToSave = FeatureColumns<std::add_const_t, Value>;
+template <class Value>
+using ColumnsToLoad = FeatureColumns<Same, Value>;
 
-template <class Columns, class SomeFeatures>
-[[nodiscard]] Columns columns_of(SomeFeatures& features, std::string_view layout, std::size_t row_size) noexcept {
+template <class Columns, class SomeFeatures, class Values>
+[[nodiscard]] Columns columns_of(SomeFeatures& features, Values& values, std::string_view layout,
+                                 std::size_t row_size) noexcept {
   return {layout,
           row_size,
-          features.values,
+          values,
           features.status,
           features.keypoints,
           features.frames,
@@ -76,7 +91,7 @@ template <class Columns>
   const std::size_t count = from.status.size();
   bool can = from.values.size() == count * from.row_size && from.keypoints.size() == count &&
              from.frames.size() == count && from.confidence.size() == count && from.neighbors.size() == count;
-  for (const float value : from.values) can = can && math::is_finite(value);
+  for (const auto value : from.values) can = can && is_value(value);
   for (const Status status : from.status) can = can && static_cast<int>(status) < status_count;
   for (const Frame& frame : from.frames) {
     can = can && math::is_finite(frame.x) && math::is_finite(frame.y) && math::is_finite(frame.z);
@@ -92,7 +107,7 @@ void write_columns(ByteWriter& to, const Columns& from) {
   to.name(from.layout);
   to.count(from.row_size);
   to.count(from.status.size());
-  to.reals(from.values.data(), from.values.size());
+  for (const auto value : from.values) write_value(to, value);
   for (const Status status : from.status) to.number(static_cast<std::uint8_t>(status));
   for (const KeyPoint& key : from.keypoints) {
     to.point(key.position);
@@ -134,12 +149,15 @@ template <class Columns>
   if (!from.good()) return Status::damaged_model;
   if (layout != to.layout) return Status::other_descriptor;
   from.require(row_size == to.row_size);
-  const std::size_t row_bytes = to.row_size * sizeof(float) + feature_bytes;
+  const std::size_t row_bytes = to.row_size * sizeof(typename Columns::Value) + feature_bytes;
   const std::size_t count = from.count(row_bytes);
   from.require(from.left() == count * row_bytes);
   if (!from.good()) return Status::damaged_model;
   to.values.resize(count * to.row_size);
-  from.reals(to.values.data(), to.values.size());
+  for (auto& value : to.values) {
+    read_value(from, value);
+    from.require(is_value(value));
+  }
   to.status.reserve(count);
   while (to.status.size() < count) to.status.push_back(read_status(from));
   to.keypoints.reserve(count);
@@ -164,7 +182,7 @@ template <class Columns>
 [[nodiscard]] Status save_columns(const Columns& from, std::vector<std::uint8_t>& bytes) {
   bytes.clear();
   if (!can_be_saved(from)) return Status::bad_rows;
-  const std::size_t row_bytes = from.row_size * sizeof(float) + feature_bytes;
+  const std::size_t row_bytes = from.row_size * sizeof(typename Columns::Value) + feature_bytes;
   ByteWriter to(bytes, features_file, 4096 + from.status.size() * row_bytes);
   write_columns(to, from);
   to.finish();
@@ -190,7 +208,9 @@ inline namespace SHORTSHOT_CODE {
 template <class D>
 [[nodiscard]] Status save(const Features<D>& features, std::vector<std::uint8_t>& bytes) {
   const std::string layout = layout_of<D>();
-  return detail::save_columns(detail::columns_of<detail::ColumnsToSave>(features, layout, std::size_t{D::size}), bytes);
+  using Columns = detail::ColumnsToSave<float>;
+  return detail::save_columns(detail::columns_of<Columns>(features, features.values, layout, std::size_t{D::size}),
+                              bytes);
 }
 
 /// The features that save() made these bytes of, bit for bit. What layout_of<D>() does not say (radii, how frames were
@@ -204,8 +224,9 @@ template <class D>
 [[nodiscard]] Status load(const std::uint8_t* bytes, std::size_t size, Features<D>& out) {
   const std::string layout = layout_of<D>();
   Features<D> loaded;
+  using Columns = detail::ColumnsToLoad<float>;
   const Status status = detail::load_columns(
-      bytes, size, detail::columns_of<detail::ColumnsToLoad>(loaded, layout, std::size_t{D::size}));
+      bytes, size, detail::columns_of<Columns>(loaded, loaded.values, layout, std::size_t{D::size}));
   if (status == Status::ok) out = std::move(loaded);
   return status;
 }

@@ -154,7 +154,7 @@ TEST_CASE("model: refused in this order: foreign bytes, another version, damage,
   const std::string text = "not a model, but long enough to be one of something else";
   CHECK(refusal(Bytes(text.begin(), text.end())) == Status::not_a_model);
   Bytes newer = bytes;
-  newer[at_version] = 2;
+  newer[at_version] = 3;
   newer.resize(newer.size() / 2);
   CHECK(refusal(newer, "other") == Status::other_version);
   Bytes damaged = bytes;
