@@ -34,10 +34,10 @@ inline std::string peers() {
   return list + "]";
 }
 
-/// What ./run firmware --record writes, of two configurations on one core.
+/// What ./run firmware --record writes, of the configurations that the README shows, on one core.
 inline std::string firmware() {
   std::string figures;
-  for (const char* configuration : {"Ssh96", "Scsh336"}) {
+  for (const char* configuration : {"Ssh96", "Scsh336", "ShapeColor95", "ShapeColor32"}) {
     for (const char* workspace : {"full", "compact"}) {
       for (const char* level : {"Os", "O2"}) {
         figures += (figures.empty() ? "" : ", ") + std::string(R"({"target": "m7", "level": ")") + level +

@@ -169,5 +169,7 @@ int main() {
   good = check<shortshot::Scsh336>("Scsh336") && good;
   good = check<shortshot::Scsh696>("Scsh696") && good;
   good = check<shortshot::Shot352>("Shot352") && good;
+  good = check<shortshot::ShapeColor95>("ShapeColor95") && good;
+  good = check<shortshot::ShapeColor32>("ShapeColor32") && good;
   return good ? 0 : 1;
 }

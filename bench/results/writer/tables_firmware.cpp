@@ -59,7 +59,7 @@ std::string table_of(const Json& json, const std::string& configuration) {
 std::string firmware_headline(const std::string& path, const Json& json) {
   Table table({"Cortex-M7, GCC", "flash, -Os", "library's .data + .bss", "workspace, a neighbor",
                "stack and chunk, -O2", "instructions, -O2"});
-  for (const char* configuration : {"Ssh96", "Scsh336"}) {
+  for (const char* configuration : {"Ssh96", "Scsh336", "ShapeColor95", "ShapeColor32"}) {
     const Json& small = row_of(json, path, "Os", configuration, "full");
     const Json& fast = row_of(json, path, "O2", configuration, "full");
     const Json& compact = row_of(json, path, "O2", configuration, "compact");
