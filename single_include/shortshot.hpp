@@ -7931,7 +7931,8 @@ inline constexpr int code_scale<ColorRings27, 4> = 50;
 
 /// And in 8 bits: no value is cut off. The whole is at least sqrt(1 + 1.5^2) = 1.80 times as long as where points are,
 /// and as 1.5 for colors: values without a sign are below 1 / 1.8 = 0.56 and 0.866 / 1.5 = 0.58, those with one below
-/// 0.62 / 1.8 = 0.35 (no color is farther than 3.3 times 60 from another one), which is 127 / 360. HeightShape96 may have a 1.
+/// 0.62 / 1.8 = 0.35 (no color is farther than 3.3 times 60 from another one), which is 127 / 360. HeightShape96 may
+/// have a 1.
 template <>
 inline constexpr int code_scale<ShapeColor95, 8> = 360;
 template <>

@@ -1,12 +1,12 @@
 // hashes FOLDER...: prints a line "case array hash" for whatever the library computes of each folder of golden vectors
 // and of a generated scene. check_builds.sh compares these lines between compilers and machines.
 #include <cstdio>
-#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "hash.hpp"
 #include "shortshot/shortshot.hpp"
 #include "tools/golden/case.hpp"
 #include "tools/scene/tabletop.hpp"
@@ -14,35 +14,10 @@
 namespace {
 
 using namespace shortshot;
+using shortshot_bits::Hash;
+using shortshot_bits::Input;
 using Shape = SphericalGrid<3, 4, 8>;
 using Color = SphericalGrid<2, 2, 4>;
-
-/// What is described: key points of a cloud in frames of their own and, where there are any, in given ones.
-struct Input {
-  std::string name;
-  CloudView cloud;
-  Radius radius;
-  std::vector<std::uint32_t> keypoints;
-  std::vector<Frame> frames;  // one per key point, or none at all
-};
-
-/// FNV-1a with 64 bits, over the bytes of numbers and of structs of numbers without padding.
-class Hash {
- public:
-  template <class T>
-  void add(const T* values, std::size_t count) {
-    std::vector<unsigned char> bytes(count * sizeof(T));
-    std::memcpy(bytes.data(), values, bytes.size());
-    for (const unsigned char byte : bytes) value_ = (value_ ^ byte) * 1099511628211ULL;
-  }
-
-  void print(const std::string& name, const char* array) const {
-    std::printf("%s %s %016llx\n", name.c_str(), array, value_);
-  }
-
- private:
-  unsigned long long value_ = 14695981039346656037ULL;
-};
 
 Workspace<16384> workspace;
 
