@@ -249,6 +249,20 @@ using namespace extend;
 #ifndef SHORTSHOT_BASE_SIMD_HPP
 #define SHORTSHOT_BASE_SIMD_HPP
 
+// shortshot/base/quad.hpp: four integers side by side in memory, for all lane shims.
+#ifndef SHORTSHOT_BASE_QUAD_HPP
+#define SHORTSHOT_BASE_QUAD_HPP
+
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
+
+/// One addition where there are lanes.
+using Quad = std::int32_t __attribute__((vector_size(16)));
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd
+#endif  // SHORTSHOT_BASE_QUAD_HPP
+
 // shortshot/base/unfused.hpp: no a * b + c in one rounding, whatever the compiler was told.
 #ifndef SHORTSHOT_BASE_UNFUSED_HPP
 #define SHORTSHOT_BASE_UNFUSED_HPP
@@ -294,15 +308,6 @@ inline constexpr float whole_numbers = 12582912.0f;
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend
 #endif  // SHORTSHOT_BASE_UNFUSED_HPP
-
-namespace shortshot::extend::simd {
-inline namespace SHORTSHOT_CODE {
-
-/// Four integers side by side in memory: one addition where there are lanes.
-using Quad = std::int32_t __attribute__((vector_size(16)));
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::extend::simd
 
 #if defined(__AVX2__)
 

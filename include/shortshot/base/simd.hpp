@@ -5,19 +5,9 @@
 // an integer sum (fixed_point.hpp), so that the number of lanes never changes a result.
 #pragma once
 
-#include <cstdint>
-
 #include "../config.hpp"
+#include "quad.hpp"
 #include "unfused.hpp"
-
-namespace shortshot::extend::simd {
-inline namespace SHORTSHOT_CODE {
-
-/// Four integers side by side in memory: one addition where there are lanes.
-using Quad = std::int32_t __attribute__((vector_size(16)));
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::extend::simd
 
 #if defined(__AVX2__)
 #include "simd_avx2.hpp"

@@ -8,6 +8,7 @@
 #include <cstdint>
 
 #include "../config.hpp"
+#include "quad.hpp"
 #include "unfused.hpp"
 
 namespace shortshot::extend::simd {

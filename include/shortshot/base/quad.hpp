@@ -1,0 +1,15 @@
+// shortshot/base/quad.hpp: four integers side by side in memory, for all lane shims.
+#pragma once
+
+#include <cstdint>
+
+#include "../config.hpp"
+
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
+
+/// One addition where there are lanes.
+using Quad = std::int32_t __attribute__((vector_size(16)));
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd
