@@ -8279,6 +8279,14 @@ void binarize(const NibbleDescriptor<D, Scale>& nibbles, SumBits<D, Bits, Draws>
   }
 }
 
+/// The same of D::size values, by way of nibbles with steps of 1 / code_scale<D, 4>.
+template <class D, int Bits, int Draws>
+void binarize(const float* values, SumBits<D, Bits, Draws>& out) noexcept {
+  NibbleDescriptor<D> nibbles;
+  quantize(values, nibbles);
+  binarize(nibbles, out);
+}
+
 /// Number of bits in which two descriptors differ, 0 to Bits.
 template <class D, int Bits, int Draws>
 [[nodiscard, gnu::always_inline]] inline int hamming_distance(const SumBits<D, Bits, Draws>& a,
@@ -10297,11 +10305,7 @@ struct Storage<SumBits<D, Bits, Draws>> {
     return std::to_string(Bits) + " bits of sums of " + std::to_string(Draws) + ", steps of 1/" +
            std::to_string(code_scale<D, 4>);
   }
-  static void make(const float* values, SumBits<D, Bits, Draws>& out) noexcept {
-    NibbleDescriptor<D> nibbles;
-    quantize(values, nibbles);
-    binarize(nibbles, out);
-  }
+  static void make(const float* values, SumBits<D, Bits, Draws>& out) noexcept { binarize(values, out); }
 };
 
 /// Descriptors as the numbers that they are made of.
@@ -11292,15 +11296,18 @@ struct PairComparison {
 };
 template <class Rows>
 struct Comparison : PairComparison<Rows> {};
-template <>
-struct Comparison<DescriptorRows> {
-  using Compared = ComparedRows;
+/// Rows of floats, or of what stands for them.
+template <class Rows, class SomeCompared>
+struct FloatComparison {
+  using Compared = SomeCompared;
   using Limits = QueryLimits;
-  [[nodiscard]] static bool fit(const DescriptorRows& a, const DescriptorRows& b) noexcept {
+  [[nodiscard]] static bool fit(const Rows& a, const Rows& b) noexcept {
     return validate(a) == Status::ok && validate(b) == Status::ok && a.size == b.size;
   }
-  [[nodiscard]] static float distance(const DescriptorRows&, float compared) noexcept { return simd::sqrt(compared); }
+  [[nodiscard]] static float distance(const Rows&, float compared) noexcept { return simd::sqrt(compared); }
 };
+template <>
+struct Comparison<DescriptorRows> : FloatComparison<DescriptorRows, ComparedRows> {};
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
@@ -11948,14 +11955,7 @@ class ComparedHalves : private HalvesAsFloats, public ComparedRows {
 };
 
 template <>
-struct Comparison<HalfRows> {
-  using Compared = ComparedHalves;
-  using Limits = QueryLimits;
-  [[nodiscard]] static bool fit(const HalfRows& a, const HalfRows& b) noexcept {
-    return validate(a) == Status::ok && validate(b) == Status::ok && a.size == b.size;
-  }
-  [[nodiscard]] static float distance(const HalfRows&, float compared) noexcept { return simd::sqrt(compared); }
-};
+struct Comparison<HalfRows> : FloatComparison<HalfRows, ComparedHalves> {};
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail

@@ -46,6 +46,24 @@ struct Configuration {
 void require(shortshot::Status status);
 
 template <class D>
+Described described_by(shortshot::Features<D> features) {
+  return {std::move(features.values), std::move(features.status), std::move(features.frames),
+          std::move(features.keypoints), static_cast<std::size_t>(D::size)};
+}
+
+/// In frames that are given; a row has none if its status is not ok, which becomes that of the descriptor.
+template <class D>
+void extract_in(const std::vector<shortshot::Frame>& frames, const std::vector<shortshot::Status>& status,
+                const shortshot::CloudView& cloud, const shortshot::GridSearch& search,
+                const std::vector<shortshot::KeyPoint>& keypoints, const shortshot::Support& support,
+                shortshot::Features<D>& features) {
+  require(shortshot::extract(cloud, search, keypoints, frames, support.radius, features));
+  for (std::size_t row = 0; row < features.size(); ++row) {
+    if (status[row] != shortshot::Status::ok) features.status[row] = status[row];
+  }
+}
+
+template <class D>
 Described describe_as(const shortshot::CloudView& cloud, const shortshot::GridSearch& search,
                       const std::vector<shortshot::KeyPoint>& keypoints, const shortshot::Support& support,
                       const KeptFrames& kept) {
@@ -55,15 +73,11 @@ Described describe_as(const shortshot::CloudView& cloud, const shortshot::GridSe
   } else {  // recognition casts votes from frames all the same
     shortshot::Features<shortshot::Ssh32> framed;
     require(shortshot::extract(cloud, search, keypoints, support, framed));
-    require(shortshot::extract(cloud, search, keypoints, framed.frames, support.radius, features));
-    for (std::size_t row = 0; row < framed.size(); ++row) {
-      if (framed.status[row] != shortshot::Status::ok) features.status[row] = framed.status[row];
-    }
+    extract_in(framed.frames, framed.status, cloud, search, keypoints, support, features);
     features.frame_confidence = std::move(framed.frame_confidence);
   }
   require(keep_frames(features, keypoints, kept));
-  return {std::move(features.values), std::move(features.status), std::move(features.frames), keypoints,
-          static_cast<std::size_t>(D::size)};
+  return described_by(std::move(features));
 }
 
 template <class D>

@@ -3,19 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paper/truth.hpp"
+
 namespace shortshot_bench::paper {
 namespace {
 
-using Motion = std::array<double, 16>;
-using Place = std::array<double, 3>;
-
-Place moved(const Motion& t, const Place& p) {
-  Place q;
-  for (std::size_t i = 0; i < 3; ++i) q[i] = t[4 * i] * p[0] + t[4 * i + 1] * p[1] + t[4 * i + 2] * p[2] + t[4 * i + 3];
-  return q;
-}
-
-double distance(const Place& a, const Place& b) { return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]); }
+using Motion = datasets::RigidMotion;
 
 Motion motion_of(const shortshot::Pose& pose) {
   Motion t{};
@@ -33,43 +26,21 @@ double rotation_between_deg(const Motion& a, const Motion& b) {
   return std::acos(std::clamp((trace - 1.0) / 2.0, -1.0, 1.0)) * 180.0 / std::acos(-1.0);
 }
 
-Place centroid_of(const std::vector<Place>& places) {
+Place centroid_of(const View& view) {
   Place mean{};
-  for (const Place& p : places) {
-    for (std::size_t i = 0; i < 3; ++i) mean[i] += p[i] / static_cast<double>(places.size());
+  for (const shortshot::KeyPoint& k : view.keypoints()) {
+    const Place p = place_of(k.position);
+    for (std::size_t i = 0; i < 3; ++i) mean[i] += p[i] / static_cast<double>(view.keypoints().size());
   }
   return mean;
 }
 
-std::vector<Place> places_of(const View& view) {
-  std::vector<Place> places;
-  for (const shortshot::KeyPoint& k : view.keypoints()) {
-    places.push_back(
-        {static_cast<double>(k.position.x), static_cast<double>(k.position.y), static_cast<double>(k.position.z)});
-  }
-  return places;
-}
-
-/// Where the source's key points truly lie in the target, and which of the target's are close enough to that.
-class Truth {
+/// What poses are judged by, too.
+class MotionTruth : public Truth {
  public:
-  Truth(const Motion& motion, const View& source, const View& target, float correct_distance)
-      : motion_(motion),
-        correct_distance_(static_cast<double>(correct_distance)),
-        source_(places_of(source)),
-        target_(places_of(target)),
-        centroid_(centroid_of(source_)) {
-    for (std::size_t i = 0; i < source_.size(); ++i) {
-      const Place place = moved(motion_, source_[i]);
-      matchable_.push_back(std::any_of(target_.begin(), target_.end(),
-                                       [&](const Place& t) { return distance(place, t) <= correct_distance_; }));
-    }
-  }
+  MotionTruth(const Motion& motion, const View& source, const View& target, float correct_distance)
+      : Truth(motion, source, target, correct_distance), motion_(motion), centroid_(centroid_of(source)) {}
 
-  bool is_matchable(std::size_t source) const { return matchable_[source]; }
-  bool is_correct(std::size_t source, std::size_t target) const {
-    return distance(moved(motion_, source_[source]), target_[target]) <= correct_distance_;
-  }
   Trial trial(const shortshot::Pose& pose, std::size_t inliers) const {
     const Motion found = motion_of(pose);
     return {true, t_diff(found, motion_), rotation_between_deg(found, motion_),
@@ -78,25 +49,11 @@ class Truth {
 
  private:
   Motion motion_;
-  double correct_distance_;
-  std::vector<Place> source_;
-  std::vector<Place> target_;
   Place centroid_;
-  std::vector<bool> matchable_;
 };
 
-void count_nearest(const Described& source, const Described& target, const Truth& truth, Matching& matching) {
-  std::vector<shortshot::Match> nearest;
-  require(shortshot::nearest(source.rows().descriptors, target.rows().descriptors, 1, nearest));
-  for (std::size_t i = 0; i < nearest.size(); ++i) {
-    if (!truth.is_matchable(i)) continue;
-    ++matching.matchable;
-    if (nearest[i].row != shortshot::no_row && truth.is_correct(i, nearest[i].row)) ++matching.correct_nearest;
-  }
-}
-
 void estimate_poses(const std::vector<shortshot::PointPair>& pairs, const MatchingSettings& settings,
-                    const Truth& truth, Matching& matching) {
+                    const MotionTruth& truth, Matching& matching) {
   for (std::uint32_t seed = 1; seed <= settings.seeds; ++seed) {
     shortshot::RansacOptions options;
     options.iterations = settings.iterations;
@@ -109,16 +66,19 @@ void estimate_poses(const std::vector<shortshot::PointPair>& pairs, const Matchi
   }
 }
 
-Matching match(const Described& source, const Described& target, const MatchingSettings& settings, const Truth& truth) {
+Matching match(const Described& source, const Described& target, const MatchingSettings& settings,
+               const MotionTruth& truth) {
   Matching matching;
   matching.keypoints = source.keypoints.size();
-  count_nearest(source, target, truth, matching);
+  const RightMatches nearest = count_right_nearest(source, target, truth);
+  matching.matchable = nearest.of;
+  matching.correct_nearest = nearest.right;
   std::vector<shortshot::MatchedPair> correspondences;
   require(shortshot::reciprocal_correspondences(source.rows().descriptors, target.rows().descriptors, correspondences));
   std::vector<shortshot::PointPair> pairs;
   for (const shortshot::MatchedPair& c : correspondences) {
     pairs.push_back({source.keypoints[c.source].position, target.keypoints[c.target].position});
-    if (truth.is_correct(c.source, c.target)) ++matching.correct;
+    if (truth.is_right(c.source, c.target)) ++matching.correct;
   }
   matching.reciprocal = pairs.size();
   estimate_poses(pairs, settings, truth, matching);
@@ -154,7 +114,7 @@ std::vector<Matching> match_pair(const datasets::ViewPair& pair, const MatchingS
                                  const std::vector<Configuration>& configurations) {
   const View source(pair.source, settings.source);
   const View target(pair.target, settings.target);
-  const Truth truth(pair.truth, source, target, settings.correct_distance);
+  const MotionTruth truth(pair.truth, source, target, settings.correct_distance);
   std::vector<Matching> matchings;
   for (const Configuration& configuration : configurations) {
     if (configuration.needs_colors && !(source.has_colors() && target.has_colors())) continue;

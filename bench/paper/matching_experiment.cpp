@@ -1,11 +1,10 @@
 #include "paper/matching_experiment.hpp"
 
 #include <algorithm>
-#include <filesystem>
-#include <numeric>
 
 #include "paper/datasets/pair_sets.hpp"
 #include "paper/matching.hpp"
+#include "tools/io/folder_name.hpp"
 
 namespace shortshot_bench::paper {
 namespace {
@@ -13,18 +12,9 @@ namespace {
 constexpr std::size_t quick_pairs = 5;  // of each set
 constexpr std::size_t frame_step = 5;   // neighboring frames of a room are many and much alike
 
-/// Every `step`-th pair in the order of rotation.
 std::vector<std::size_t> chosen_pairs(const datasets::PairSet& set, bool quick) {
-  std::vector<std::size_t> order(set.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return set.rotation_deg[a] < set.rotation_deg[b]; });
-  const std::size_t step = quick                  ? std::max<std::size_t>(1, order.size() / quick_pairs)
-                           : set.name == "frames" ? frame_step
-                                                  : 1;
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < order.size(); i += step) chosen.push_back(order[i]);
-  return chosen;
+  if (quick) return datasets::every_nth_by_rotation(set, std::max<std::size_t>(1, set.size() / quick_pairs));
+  return datasets::every_nth_by_rotation(set, set.name == "frames" ? frame_step : 1);
 }
 
 nlohmann::ordered_json to_json(const MatchingSettings& settings) {
@@ -38,7 +28,7 @@ nlohmann::ordered_json to_json(const MatchingSettings& settings) {
 
 void add_set(Experiment& experiment, const std::string& folder, const datasets::PairSet& set,
              const PaperOptions& options) {
-  const std::string name = std::filesystem::path(folder).lexically_normal().filename().string() + " " + set.name;
+  const std::string name = folder_name(folder) + " " + set.name;
   MatchingSettings settings = matching_settings(set.name);
   settings.source.seed = settings.target.seed = options.seed;
   settings.all_of_target = options.all_of_target;

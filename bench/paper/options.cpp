@@ -1,22 +1,12 @@
 #include "paper/options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <stdexcept>
 
 #include "paper/kept_frames.hpp"
 #include "tools/io/finite_and_positive.hpp"
 
 namespace shortshot_bench::paper {
 namespace {
-
-std::string is_shard(const std::string& text) {
-  try {
-    static_cast<void>(campaign::parse_shard(text));
-    return {};
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-}
 
 CLI::App* add_experiment(CLI::App& app, const std::string& name, const std::string& what, PaperOptions& options,
                          std::string& shard) {
@@ -27,7 +17,7 @@ CLI::App* add_experiment(CLI::App& app, const std::string& name, const std::stri
   command->add_option("--seed", options.seed, "of everything that is drawn at random")->capture_default_str();
   command->add_option("--threads", options.threads, "0: as many as there are cores")->capture_default_str();
   command->add_option("--shard", shard, "k/n: do the k-th of n shares of the work only; then merge the folders")
-      ->check(is_shard);
+      ->check(campaign::refusal_of_shard);
   command->add_flag("--quick", options.quick, "a small part of the data, to see that all works");
   command->add_flag("--check", options.check, "exit 1 if a figure is outside of the bands in bench/paper/bands.json");
   return command;

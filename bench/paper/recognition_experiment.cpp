@@ -1,8 +1,7 @@
 #include "paper/recognition_experiment.hpp"
 
-#include <filesystem>
-
 #include "paper/recognition.hpp"
+#include "tools/io/folder_name.hpp"
 
 namespace shortshot_bench::paper {
 namespace {
@@ -16,10 +15,6 @@ struct SharedTask {
   std::uint32_t seed;
 };
 
-std::string name_of(const std::string& folder) {
-  return std::filesystem::path(folder).lexically_normal().filename().string();
-}
-
 /// Nothing for a folder without views or meshes.
 std::vector<SharedTask> tasks_in(const std::string& folder, const PaperOptions& options, std::uint32_t seeds) {
   std::vector<SharedTask> tasks;
@@ -27,7 +22,7 @@ std::vector<SharedTask> tasks_in(const std::string& folder, const PaperOptions& 
     datasets::VirtualViewOptions view_options;
     view_options.seed = seed;
     RecognitionTask task =
-        task_of(datasets::open_virtual_views(folder, view_options), name_of(folder) + " virtual views");
+        task_of(datasets::open_virtual_views(folder, view_options), folder_name(folder) + " virtual views");
     if (options.quick) task = every_nth(task, 3);  // a ninth of the work
     tasks.push_back({task, std::make_shared<Views>(task, ViewSettings{}), seed});
   }
@@ -35,7 +30,7 @@ std::vector<SharedTask> tasks_in(const std::string& folder, const PaperOptions& 
     const std::vector<RecognitionTask> all = tasks_of(set);
     const auto views = std::make_shared<Views>(all.front(), ViewSettings{});
     for (RecognitionTask task : all) {
-      task.name = name_of(folder) + " " + task.name;
+      task.name = folder_name(folder) + " " + task.name;
       if (task.tests() > 0) tasks.push_back({task, views, options.seed});
     }
   }

@@ -45,8 +45,7 @@ paper::Described extract_as(const shortshot::CloudView& cloud, const shortshot::
                             const paper::KeptFrames&) {
   shortshot::Features<D> features;
   paper::require(shortshot::extract(cloud, search, keypoints, support, features));
-  return {std::move(features.values), std::move(features.status), std::move(features.frames), keypoints,
-          static_cast<std::size_t>(D::size)};
+  return paper::described_by(std::move(features));
 }
 
 /// The frames' x axes point to where it is brighter.
@@ -56,12 +55,8 @@ paper::Described describe_under_fixed_lamp(const shortshot::CloudView& cloud, co
                                            const shortshot::Support& support, const paper::KeptFrames&) {
   const FixedLampFrames frames = fixed_lamp_frames(cloud, search, keypoints, support);
   shortshot::Features<D> features;
-  paper::require(shortshot::extract(cloud, search, keypoints, frames.frames, support.radius, features));
-  for (std::size_t row = 0; row < features.size(); ++row) {
-    if (frames.status[row] != shortshot::Status::ok) features.status[row] = frames.status[row];
-  }
-  return {std::move(features.values), std::move(features.status), std::move(features.frames), keypoints,
-          static_cast<std::size_t>(D::size)};
+  paper::extract_in(frames.frames, frames.status, cloud, search, keypoints, support, features);
+  return paper::described_by(std::move(features));
 }
 
 /// One with nothing but floats.

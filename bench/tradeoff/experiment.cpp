@@ -3,11 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <memory>
-#include <numeric>
 
 #include "paper/datasets/virtual_views.hpp"
+#include "tools/io/folder_name.hpp"
 #include "tradeoff/paint.hpp"
 #include "tradeoff/pairs.hpp"
 #include "tradeoff/views.hpp"
@@ -17,10 +16,6 @@ namespace {
 
 using Candidates = std::shared_ptr<const std::vector<Candidate>>;
 
-std::string name_of(const std::string& folder) {
-  return std::filesystem::path(folder).lexically_normal().filename().string();
-}
-
 std::string millimeters(float meters) { return std::to_string(std::lround(1000.0f * meters)) + " mm"; }
 
 /// "apc_lamp_moved" has a sibling under the lamp at rest, "apc_lamp_same".
@@ -28,17 +23,6 @@ std::string sibling_at_rest(const std::string& name) {
   const std::string end = "_moved";
   const std::size_t place = name.find(end);
   return place == std::string::npos ? "" : std::string(name).replace(place, end.size(), "_same");
-}
-
-/// Every `step`-th pair in the order of rotation.
-std::vector<std::size_t> every_nth_by_rotation(const datasets::PairSet& set, std::size_t step) {
-  std::vector<std::size_t> order(set.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return set.rotation_deg[a] < set.rotation_deg[b]; });
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < order.size(); i += step) chosen.push_back(order[i]);
-  return chosen;
 }
 
 /// The protocols of bench/TRADEOFF.md.
@@ -92,6 +76,27 @@ std::vector<NamedLook> looks_at(const datasets::PairSet& set) {
   return looks;
 }
 
+/// What a folder holds.
+struct Sets {
+  std::vector<datasets::PairSet> pairs;
+  std::vector<datasets::ViewSet> views;  // those with something to recognize
+  bool has_meshes;
+};
+
+/// One or, if there is nothing to be done, none. The quick form does not look at meshes, nor at splits that take long.
+std::vector<Sets> sets_in(const std::string& folder, bool quick) {
+  Sets sets{datasets::open_pair_sets(folder), {}, !quick && datasets::holds_meshes(folder)};
+  for (datasets::ViewSet& set : datasets::open_view_sets(folder)) {
+    const std::vector<paper::RecognitionTask> tasks = paper::tasks_of(set);
+    const bool any = std::any_of(tasks.begin(), tasks.end(), [&](const paper::RecognitionTask& task) {
+      return task.tests() > 0 && !(quick && task.leave_one_sequence_out);
+    });
+    if (any) sets.views.push_back(std::move(set));
+  }
+  if (sets.pairs.empty() && sets.views.empty() && !sets.has_meshes) return {};
+  return {sets};
+}
+
 class Builder {
  public:
   Builder(const TradeoffOptions& options, Candidates candidates) : options_(options), all_(std::move(candidates)) {
@@ -102,13 +107,10 @@ class Builder {
     experiment_.parameters = {{"experiment", "tradeoff"}, {"quick", options.quick}, {"entries", entries()}};
   }
 
-  /// False if the folder holds nothing.
-  bool add_folder(const std::string& folder) {
-    const std::size_t before = experiment_.units.size();
-    for (const datasets::PairSet& set : datasets::open_pair_sets(folder)) add_pairs(folder, set);
-    for (const datasets::ViewSet& set : datasets::open_view_sets(folder)) add_views(folder, set);
-    if (datasets::holds_meshes(folder)) add_meshes(folder);
-    return experiment_.units.size() > before;
+  void add(const std::string& folder, const Sets& sets) {
+    for (const datasets::PairSet& set : sets.pairs) add_pairs(folder, set);
+    for (const datasets::ViewSet& set : sets.views) add_views(folder, set);
+    if (sets.has_meshes) add_meshes(folder);
   }
   paper::Experiment finish() && {
     experiment_.parameters["measures"] = nlohmann::ordered_json(measures_);
@@ -138,13 +140,13 @@ class Builder {
     for (const NamedLook& named : looks_at(set)) {
       const bool is_second_look = named.named_only || (set.name != "frames" && named.look.view.radius > 0.06f);
       if (options_.quick && is_second_look) continue;
-      const std::string measure = name_of(folder) + " " + set.name + ", " + named.name;
+      const std::string measure = folder_name(folder) + " " + set.name + ", " + named.name;
       const std::string rest = sibling_at_rest(measure);
       const char* const baseline = set.has_color ? named.baseline : shape_baseline;
       add_measure(measure, named.figure, baseline, named.figure == Figure::match_rate, rest);
       if (named.look.gain_seed != 0) add_measure(measure + gain_suffix, named.figure, baseline, false, measure);
       const std::size_t step = options_.quick ? std::max<std::size_t>(named.step, set.size() / 3) : named.step;
-      for (const std::size_t i : every_nth_by_rotation(set, step)) {
+      for (const std::size_t i : datasets::every_nth_by_rotation(set, step)) {
         PairLook look = named.look;
         if (look.gain_seed != 0) look.gain_seed += static_cast<std::uint32_t>(i);
         if (look.paint) look.view.seed += 2 * static_cast<std::uint32_t>(i);
@@ -168,29 +170,28 @@ class Builder {
     const auto views = std::make_shared<paper::Views>(tasks.front(), settings);
     for (const paper::RecognitionTask& task : tasks) {
       if (task.tests() == 0 || (options_.quick && task.leave_one_sequence_out)) continue;
-      const std::string measure = name_of(folder) + " " + task.name + ", R " + millimeters(settings.radius);
+      const std::string measure = folder_name(folder) + " " + task.name + ", R " + millimeters(settings.radius);
       add_measure(measure, Figure::right_instance, color_baseline, true, sibling_at_rest(measure));
       add_task(task, views, measure, *all_, count_right_instances);
     }
     add_painted_views(folder, tasks.back(), settings);
-    add_hough(tasks.front(), name_of(folder) + " " + tasks.front().name);
+    add_hough(tasks.front(), folder_name(folder) + " " + tasks.front().name);
   }
 
   /// All objects in one dark color, every second view under a lamp that is somewhere else.
   void add_painted_views(const std::string& folder, paper::RecognitionTask task, const paper::ViewSettings& settings) {
     if (task.tests() == 0 || options_.quick) return;
     task.load = [load = task.load](std::size_t i) {
-      const shortshot::Point lamp =
-          i % 2 == 0 ? shortshot::Point{0.4f, -0.5f, 0.1f} : shortshot::Point{-0.6f, -0.2f, 0.3f};
+      const shortshot::Point& lamp = i % 2 == 0 ? lamp_at_right : lamp_at_left;
       return painted(load(i), {dark, lamp, static_cast<std::uint32_t>(i)});
     };
-    const std::string measure = name_of(folder) + " " + task.name + ", painted dark";
+    const std::string measure = folder_name(folder) + " " + task.name + ", painted dark";
     add_measure(measure, Figure::right_instance, plain_baseline, false, "");
     add_task(task, std::make_shared<paper::Views>(task, settings), measure, *named_, count_right_instances);
   }
 
   void add_meshes(const std::string& folder) {
-    const std::string name = name_of(folder) + " virtual views";
+    const std::string name = folder_name(folder) + " virtual views";
     add_hough(paper::task_of(datasets::open_virtual_views(folder, {}), name), name);
   }
 
@@ -239,15 +240,11 @@ class Builder {
 
 paper::Experiment tradeoff_experiment(const TradeoffOptions& options) {
   Builder builder(options, std::make_shared<const std::vector<Candidate>>(candidates(options.quick)));
-  for (const std::string& directory : options.data) {
-    bool any = builder.add_folder(directory);
-    if (!any) {
-      for (const std::string& folder : datasets::folders_in(directory)) any = builder.add_folder(folder) || any;
-    }
-    if (!any) {
-      throw datasets::not_recognized(directory, std::string(datasets::looked_for_pairs) + ", " +
-                                                    datasets::looked_for_views + ", or " + datasets::looked_for_meshes);
-    }
+  const auto open = [&](const std::string& folder) { return sets_in(folder, options.quick); };
+  const std::string looked_for = std::string(datasets::looked_for_pairs) + ", " + datasets::looked_for_views + ", or " +
+                                 datasets::looked_for_meshes;
+  for (const auto& [folder, all] : paper::open_folders(options.data, open, looked_for)) {
+    for (const Sets& sets : all) builder.add(folder, sets);
   }
   return std::move(builder).finish();
 }

@@ -66,24 +66,27 @@ Interval Measure::share(const std::string& entry) const {
   return campaign::bootstrap_ratio(by_group<Fraction>(items, count), paper::bootstrap_seed);
 }
 
-Interval Measure::ratio(const std::string& entry, const std::string& baseline) const {
+Interval Measure::paired(const std::string& entry, const std::string& baseline,
+                         Fraction (*combine)(const Fraction& one, const Fraction& other)) const {
   const auto count = [&](const Item& item) {
     const Fraction& one = item.counts.at(entry);
     const Fraction& other = item.counts.at(baseline);
     if (one.denominator != other.denominator) throw std::logic_error(info.name + ": not counted of the same");
-    return Fraction{one.numerator, other.numerator};
+    return combine(one, other);
   };
   return campaign::bootstrap_ratio(by_group<Fraction>(items, count), paper::bootstrap_seed);
 }
 
+Interval Measure::ratio(const std::string& entry, const std::string& baseline) const {
+  return paired(entry, baseline, [](const Fraction& one, const Fraction& other) {
+    return Fraction{one.numerator, other.numerator};
+  });
+}
+
 Interval Measure::difference(const std::string& entry, const std::string& baseline) const {
-  const auto count = [&](const Item& item) {
-    const Fraction& one = item.counts.at(entry);
-    const Fraction& other = item.counts.at(baseline);
-    if (one.denominator != other.denominator) throw std::logic_error(info.name + ": not counted of the same");
+  return paired(entry, baseline, [](const Fraction& one, const Fraction& other) {
     return Fraction{one.numerator - other.numerator, one.denominator};
-  };
-  return campaign::bootstrap_ratio(by_group<Fraction>(items, count), paper::bootstrap_seed);
+  });
 }
 
 void to_json(nlohmann::ordered_json& json, const MeasureInfo& info) {

@@ -46,6 +46,10 @@ struct Measure {
   campaign::Interval ratio(const std::string& entry, const std::string& baseline) const;
   /// The one's share less the other's, item by item.
   campaign::Interval difference(const std::string& entry, const std::string& baseline) const;
+
+ private:
+  campaign::Interval paired(const std::string& entry, const std::string& baseline,
+                            campaign::Fraction (*combine)(const campaign::Fraction&, const campaign::Fraction&)) const;
 };
 
 void to_json(nlohmann::ordered_json& json, const MeasureInfo& info);

@@ -1,21 +1,11 @@
 #include "tradeoff/options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <stdexcept>
 
 #include "tools/io/finite_and_positive.hpp"
 
 namespace shortshot_bench::tradeoff {
 namespace {
-
-std::string is_shard(const std::string& text) {
-  try {
-    static_cast<void>(campaign::parse_shard(text));
-    return {};
-  } catch (const std::runtime_error& error) {
-    return error.what();
-  }
-}
 
 void add_report_options(CLI::App& command, TradeoffOptions& options) {
   command.add_option("--out", options.out, "folder of the results; what it holds already is not done again")
@@ -40,7 +30,7 @@ bool parse_options(int argc, const char* const* argv, TradeoffOptions& options, 
   draw->add_option("DATA", options.data, "folders of data sets, or folders that hold such folders")->required();
   draw->add_option("--threads", options.threads, "0: as many as there are cores")->capture_default_str();
   draw->add_option("--shard", shard, "k/n: do the k-th of n shares of the work only; then merge the folders")
-      ->check(is_shard);
+      ->check(campaign::refusal_of_shard);
   draw->add_flag("--quick", options.quick, "a small part of the data and of the family, to see that all works");
   add_report_options(*draw, options);
   CLI::App* const merge = app.add_subcommand("merge", "bring the results of shards together, and draw the map");

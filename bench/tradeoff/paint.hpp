@@ -9,6 +9,10 @@
 
 namespace shortshot_bench::tradeoff {
 
+/// Two places for it, in a camera's coordinates: above and to the right, and to the left.
+inline constexpr shortshot::Point lamp_at_right{0.4f, -0.5f, 0.1f};
+inline constexpr shortshot::Point lamp_at_left{-0.6f, -0.2f, 0.3f};
+
 struct Paint {
   std::array<double, 3> rgb;  // 0 to 255, under full light
   shortshot::Point lamp;      // in the cloud's own coordinates

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paper/truth.hpp"
 #include "tools/scene/random.hpp"
 #include "tradeoff/paint.hpp"
 
@@ -10,55 +11,12 @@ namespace shortshot_bench::tradeoff {
 namespace {
 
 using paper::Described;
+using paper::Truth;
 using paper::View;
 
-std::array<double, 3> moved(const datasets::RigidMotion& motion, const shortshot::Point& p) {
-  std::array<double, 3> q{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    q[i] = motion[4 * i] * double{p.x} + motion[4 * i + 1] * double{p.y} + motion[4 * i + 2] * double{p.z} +
-           motion[4 * i + 3];
-  }
-  return q;
-}
-
-/// Which of the target's key points lie where those of the source truly are.
-class Truth {
- public:
-  Truth(const datasets::RigidMotion& motion, const View& source, const View& target, float correct_distance)
-      : targets_(target.keypoints().size()) {
-    for (const shortshot::KeyPoint& s : source.keypoints()) {
-      const std::array<double, 3> q = moved(motion, s.position);
-      bool any = false;
-      for (const shortshot::KeyPoint& t : target.keypoints()) {
-        const double distance =
-            std::hypot(q[0] - static_cast<double>(t.position.x), q[1] - static_cast<double>(t.position.y),
-                       q[2] - static_cast<double>(t.position.z));
-        right_.push_back(distance <= static_cast<double>(correct_distance));
-        any = any || right_.back();
-      }
-      matchable_.push_back(any);
-    }
-  }
-  bool is_matchable(std::size_t source) const { return matchable_[source]; }
-  bool is_right(std::size_t source, std::size_t target) const { return right_[source * targets_ + target]; }
-
- private:
-  std::size_t targets_;
-  std::vector<bool> right_;
-  std::vector<bool> matchable_;
-};
-
-/// Of the source's key points that have a counterpart, those whose nearest neighbor is one.
 campaign::Fraction count_nearest(const Described& source, const Described& target, const Truth& truth) {
-  std::vector<shortshot::Match> nearest;
-  paper::require(shortshot::nearest(source.rows().descriptors, target.rows().descriptors, 1, nearest));
-  campaign::Fraction count;
-  for (std::size_t i = 0; i < nearest.size(); ++i) {
-    if (!truth.is_matchable(i)) continue;
-    count.denominator += 1.0;
-    if (nearest[i].row != shortshot::no_row && truth.is_right(i, nearest[i].row)) count.numerator += 1.0;
-  }
-  return count;
+  const paper::RightMatches count = paper::count_right_nearest(source, target, truth);
+  return {static_cast<double>(count.right), static_cast<double>(count.of)};
 }
 
 /// The share of reciprocal matches that are right: each pair counts as much, however many it has.
@@ -70,14 +28,12 @@ campaign::Fraction count_reciprocal(const Described& source, const Described& ta
   return {pairs.empty() ? 0.0 : static_cast<double>(right) / static_cast<double>(pairs.size()), 1.0};
 }
 
-/// Painted, with the lamp above and to the right of the source's camera or, moved, to the left of the target's.
+/// Painted, with the lamp at the right of the source's camera; moved, at the left of the target's.
 datasets::ViewPair painted_pair(datasets::ViewPair pair, const PaintLook& paint, std::uint32_t seed) {
-  const shortshot::Point lamp{0.4f, -0.5f, 0.1f};
-  const std::array<double, 3> q = moved(pair.truth, lamp);
+  const paper::Place q = paper::moved(pair.truth, paper::place_of(lamp_at_right));
   const shortshot::Point at_rest{static_cast<float>(q[0]), static_cast<float>(q[1]), static_cast<float>(q[2])};
-  pair.source = painted(std::move(pair.source), {paint.rgb, lamp, seed});
-  pair.target = painted(std::move(pair.target),
-                        {paint.rgb, paint.lamp_moves ? shortshot::Point{-0.6f, -0.2f, 0.3f} : at_rest, seed + 1});
+  pair.source = painted(std::move(pair.source), {paint.rgb, lamp_at_right, seed});
+  pair.target = painted(std::move(pair.target), {paint.rgb, paint.lamp_moves ? lamp_at_left : at_rest, seed + 1});
   return pair;
 }
 

@@ -50,23 +50,14 @@ void code_of(const shortshot::SumBits<D, Bits, Draws>& packed, float* code) {
   code_of_bits(packed.bytes, Bits, code);
 }
 
-template <class D>
-void pack(const float* values, shortshot::HalfDescriptor<D>& packed) {
+/// As the format is made of values: by one of these.
+template <class Packed>
+auto pack(const float* values, Packed& packed) -> decltype(shortshot::quantize(values, packed)) {
   shortshot::quantize(values, packed);
 }
-template <class D, int Bits, int Scale>
-void pack(const float* values, shortshot::CodedDescriptor<D, Bits, Scale>& packed) {
-  shortshot::quantize(values, packed);
-}
-template <class D, int Group>
-void pack(const float* values, shortshot::BinaryDescriptor<D, Group>& packed) {
+template <class Packed>
+auto pack(const float* values, Packed& packed) -> decltype(shortshot::binarize(values, packed)) {
   shortshot::binarize(values, packed);
-}
-template <class D, int Bits, int Draws>
-void pack(const float* values, shortshot::SumBits<D, Bits, Draws>& packed) {
-  shortshot::NibbleDescriptor<D> nibbles;
-  shortshot::quantize(values, nibbles);
-  shortshot::binarize(nibbles, packed);
 }
 
 }  // namespace storage_detail

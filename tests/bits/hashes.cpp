@@ -193,11 +193,7 @@ void print_storages(const Input& input, const GridSearch& search, const std::vec
   print_stored<CodedDescriptor<D, 3>>(input, views, "thirds", codes);
   print_stored<ByteDescriptor<D>>(input, views, "signed_bytes", codes);
   print_stored<HalfDescriptor<D>>(input, views, "halves", codes);
-  print_stored<SumBits<D>>(input, views, "sum_bits", [](const float* values, SumBits<D>& out) {
-    NibbleDescriptor<D> nibbles;
-    quantize(values, nibbles);
-    binarize(nibbles, out);
-  });
+  print_stored<SumBits<D>>(input, views, "sum_bits", [](const float* values, auto& out) { binarize(values, out); });
 }
 
 /// Matches of a view's key points with those seen with another radius, the motion between them, and what it shows.

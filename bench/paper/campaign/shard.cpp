@@ -17,4 +17,13 @@ Shard parse_shard(const std::string& text) {
   throw std::runtime_error("'" + text + "' is no shard: expected K/N with 1 <= K <= N, such as 2/5");
 }
 
+std::string refusal_of_shard(const std::string& text) {
+  try {
+    static_cast<void>(parse_shard(text));
+    return {};
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
 }  // namespace shortshot_bench::campaign

@@ -17,4 +17,7 @@ struct Shard {
 /// Reads "k/n" with 1 <= k <= n. Throws std::runtime_error, which says what was expected, for anything else.
 Shard parse_shard(const std::string& text);
 
+/// For command lines: empty if parse_shard() reads it, else what that throws.
+std::string refusal_of_shard(const std::string& text);
+
 }  // namespace shortshot_bench::campaign

@@ -1,6 +1,8 @@
 #include "paper/datasets/pair_sets.hpp"
 
+#include <algorithm>
 #include <filesystem>
+#include <numeric>
 #include <utility>
 
 #include "paper/datasets/csv_table.hpp"
@@ -87,6 +89,16 @@ std::vector<PairSet> open_pair_sets(const std::string& directory, double max_dep
   open_if_there("view_pairs.csv", [&](const std::string& table) { return view_pairs(directory, table); });
   open_if_there("frame_pairs.csv", [&](const std::string& table) { return frame_pairs(directory, table, max_depth); });
   return sets;
+}
+
+std::vector<std::size_t> every_nth_by_rotation(const PairSet& set, std::size_t step) {
+  std::vector<std::size_t> order(set.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return set.rotation_deg[a] < set.rotation_deg[b]; });
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < order.size(); i += step) chosen.push_back(order[i]);
+  return chosen;
 }
 
 }  // namespace shortshot_bench::datasets

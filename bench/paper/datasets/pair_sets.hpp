@@ -34,6 +34,9 @@ struct PairSet {
   std::size_t size() const { return pair_names.size(); }
 };
 
+/// Every `step`-th pair (from 1 on) in the order of rotation, the smallest first.
+std::vector<std::size_t> every_nth_by_rotation(const PairSet& set, std::size_t step);
+
 /// For messages.
 inline constexpr const char* looked_for_pairs = "object_scene_pairs.csv, view_pairs.csv or frame_pairs.csv";
 

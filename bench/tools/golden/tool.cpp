@@ -8,17 +8,11 @@
 
 #include "case.hpp"
 #include "compare.hpp"
+#include "tools/io/folder_name.hpp"
 #include "tools/io/input_error.hpp"
 
 namespace shortshot_bench::golden {
 namespace {
-
-// The last part of a path, also of "folder/" and ".".
-std::string folder_name(const std::string& path) {
-  const std::filesystem::path whole = std::filesystem::absolute(path).lexically_normal();
-  const std::filesystem::path name = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
-  return name.string();
-}
 
 std::string padded(const std::string& text, std::size_t width) {
   return text + std::string(text.size() < width ? width - text.size() : 0, ' ');

@@ -247,15 +247,18 @@ struct PairComparison {
 };
 template <class Rows>
 struct Comparison : PairComparison<Rows> {};
-template <>
-struct Comparison<DescriptorRows> {
-  using Compared = ComparedRows;
+/// Rows of floats, or of what stands for them.
+template <class Rows, class SomeCompared>
+struct FloatComparison {
+  using Compared = SomeCompared;
   using Limits = QueryLimits;
-  [[nodiscard]] static bool fit(const DescriptorRows& a, const DescriptorRows& b) noexcept {
+  [[nodiscard]] static bool fit(const Rows& a, const Rows& b) noexcept {
     return validate(a) == Status::ok && validate(b) == Status::ok && a.size == b.size;
   }
-  [[nodiscard]] static float distance(const DescriptorRows&, float compared) noexcept { return simd::sqrt(compared); }
+  [[nodiscard]] static float distance(const Rows&, float compared) noexcept { return simd::sqrt(compared); }
 };
+template <>
+struct Comparison<DescriptorRows> : FloatComparison<DescriptorRows, ComparedRows> {};
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail

@@ -10,7 +10,6 @@
 #include "../status.hpp"
 #include "../store/half.hpp"
 #include "compare_rows.hpp"
-#include "l2_distance.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
@@ -65,14 +64,7 @@ class ComparedHalves : private HalvesAsFloats, public ComparedRows {
 };
 
 template <>
-struct Comparison<HalfRows> {
-  using Compared = ComparedHalves;
-  using Limits = QueryLimits;
-  [[nodiscard]] static bool fit(const HalfRows& a, const HalfRows& b) noexcept {
-    return validate(a) == Status::ok && validate(b) == Status::ok && a.size == b.size;
-  }
-  [[nodiscard]] static float distance(const HalfRows&, float compared) noexcept { return simd::sqrt(compared); }
-};
+struct Comparison<HalfRows> : FloatComparison<HalfRows, ComparedHalves> {};
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail

@@ -77,11 +77,7 @@ struct Storage<SumBits<D, Bits, Draws>> {
     return std::to_string(Bits) + " bits of sums of " + std::to_string(Draws) + ", steps of 1/" +
            std::to_string(code_scale<D, 4>);
   }
-  static void make(const float* values, SumBits<D, Bits, Draws>& out) noexcept {
-    NibbleDescriptor<D> nibbles;
-    quantize(values, nibbles);
-    binarize(nibbles, out);
-  }
+  static void make(const float* values, SumBits<D, Bits, Draws>& out) noexcept { binarize(values, out); }
 };
 
 /// Descriptors as the numbers that they are made of.

@@ -50,6 +50,14 @@ void binarize(const NibbleDescriptor<D, Scale>& nibbles, SumBits<D, Bits, Draws>
   }
 }
 
+/// The same of D::size values, by way of nibbles with steps of 1 / code_scale<D, 4>.
+template <class D, int Bits, int Draws>
+void binarize(const float* values, SumBits<D, Bits, Draws>& out) noexcept {
+  NibbleDescriptor<D> nibbles;
+  quantize(values, nibbles);
+  binarize(nibbles, out);
+}
+
 /// Number of bits in which two descriptors differ, 0 to Bits.
 template <class D, int Bits, int Draws>
 [[nodiscard, gnu::always_inline]] inline int hamming_distance(const SumBits<D, Bits, Draws>& a,
