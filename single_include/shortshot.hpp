@@ -10343,6 +10343,16 @@ template <class D, class Stored>
   return Status::ok;
 }
 
+/// A whole cloud's descriptors in a storage: describe_cloud(), then store(). Statuses as of describe_cloud(). Allocates
+/// the features in floats, too, for as long as it lasts.
+template <class Stored>
+[[nodiscard]] Status describe_cloud(const CloudView& cloud, const CloudOptions& options, StoredFeatures<Stored>& out) {
+  Features<typename detail::Storage<Stored>::Descriptor> features;
+  const Status status = describe_cloud(cloud, options, features);
+  const Status stored = store(features, out);
+  return status != Status::ok ? status : stored;
+}
+
 /// As features are saved: the same bytes on every machine, and so many for a row as the storage has, and 73 more. The
 /// file says storage_layout<Stored>().
 ///
@@ -11419,6 +11429,12 @@ template <class D, int Bits, int Draws>
                               const Status* status = nullptr) noexcept {
   static_assert(sizeof(SumBits<D, Bits, Draws>) == Bits / 8, "rows without gaps");
   return {reinterpret_cast<const std::uint8_t*>(descriptors.data()), descriptors.size(), Bits / 8, status};
+}
+
+/// Those of features, with their statuses; also of halves.
+template <class Stored>
+[[nodiscard]] auto rows_of(const StoredFeatures<Stored>& features) noexcept {
+  return rows_of(features.descriptors, features.status.data());
 }
 
 /// ok or bad_rows, as for rows of floats.
@@ -13134,7 +13150,7 @@ template <class Stored, class Use>
     const DescriptorRows rows{values.data(), features.size(), row_size, features.status.data()};
     return use(PlacedRows<DescriptorRows>{rows, features.keypoints.data(), features.frames.data()});
   } else {
-    const auto rows = rows_of(features.descriptors, features.status.data());
+    const auto rows = rows_of(features);
     return use(PlacedRows<std::decay_t<decltype(rows)>>{rows, features.keypoints.data(), features.frames.data()});
   }
 }

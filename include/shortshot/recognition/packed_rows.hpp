@@ -15,6 +15,7 @@
 #include "../store/binary.hpp"
 #include "../store/code_distance.hpp"
 #include "../store/coded.hpp"
+#include "../store/stored_features.hpp"
 #include "../store/sum_bits.hpp"
 
 namespace shortshot::detail {
@@ -102,6 +103,12 @@ template <class D, int Bits, int Draws>
                               const Status* status = nullptr) noexcept {
   static_assert(sizeof(SumBits<D, Bits, Draws>) == Bits / 8, "rows without gaps");
   return {reinterpret_cast<const std::uint8_t*>(descriptors.data()), descriptors.size(), Bits / 8, status};
+}
+
+/// Those of features, with their statuses; also of halves.
+template <class Stored>
+[[nodiscard]] auto rows_of(const StoredFeatures<Stored>& features) noexcept {
+  return rows_of(features.descriptors, features.status.data());
 }
 
 /// ok or bad_rows, as for rows of floats.

@@ -34,7 +34,7 @@ template <class Stored, class Use>
     const DescriptorRows rows{values.data(), features.size(), row_size, features.status.data()};
     return use(PlacedRows<DescriptorRows>{rows, features.keypoints.data(), features.frames.data()});
   } else {
-    const auto rows = rows_of(features.descriptors, features.status.data());
+    const auto rows = rows_of(features);
     return use(PlacedRows<std::decay_t<decltype(rows)>>{rows, features.keypoints.data(), features.frames.data()});
   }
 }

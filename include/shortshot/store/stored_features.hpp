@@ -10,7 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "../batch/describe_cloud.hpp"
 #include "../batch/features.hpp"
+#include "../cloud/cloud.hpp"
 #include "../config.hpp"
 #include "../descriptor/layout_text.hpp"
 #include "../status.hpp"
@@ -113,6 +115,16 @@ template <class D, class Stored>
   out.frame_confidence = features.frame_confidence;
   out.neighbors = features.neighbors;
   return Status::ok;
+}
+
+/// A whole cloud's descriptors in a storage: describe_cloud(), then store(). Statuses as of describe_cloud(). Allocates
+/// the features in floats, too, for as long as it lasts.
+template <class Stored>
+[[nodiscard]] Status describe_cloud(const CloudView& cloud, const CloudOptions& options, StoredFeatures<Stored>& out) {
+  Features<typename detail::Storage<Stored>::Descriptor> features;
+  const Status status = describe_cloud(cloud, options, features);
+  const Status stored = store(features, out);
+  return status != Status::ok ? status : stored;
 }
 
 /// As features are saved: the same bytes on every machine, and so many for a row as the storage has, and 73 more. The

@@ -115,3 +115,23 @@ TEST_CASE("stored features: halves that are no numbers are neither saved nor loa
   std::vector<std::uint8_t> bytes;
   CHECK(ss::save(halves, bytes) == Status::bad_rows);
 }
+
+TEST_CASE("stored features: a whole cloud in one call is what its features are stored as") {
+  const TestCloud cloud = curved_surface(4, 3000);
+  const ss::CloudView view = cloud.view();
+  ss::CloudOptions options;
+  options.radius = 0.1f;
+  options.leaf = 0.03f;
+  ss::Features<D> features;
+  REQUIRE(ss::describe_cloud(view, options, features) == Status::ok);
+  REQUIRE(features.size() > 20);
+  ss::StoredFeatures<ss::NibbleDescriptor<D>> one_by_one, at_once;
+  REQUIRE(ss::store(features, one_by_one) == Status::ok);
+  REQUIRE(ss::describe_cloud(view, options, at_once) == Status::ok);
+  CHECK(same(one_by_one, at_once));
+  const ss::NibbleRows rows = ss::rows_of(at_once);
+  CHECK((rows.count == features.size() && rows.status == at_once.status.data()));
+  options.radius = -1.0f;
+  CHECK(ss::describe_cloud(view, options, at_once) == Status::bad_radius);
+  CHECK(at_once.size() == 0);
+}
