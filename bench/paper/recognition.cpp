@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "tools/io/input_error.hpp"
 
@@ -97,8 +98,8 @@ RecognitionTask every_nth(const RecognitionTask& task, std::size_t n) {
   return thinned;
 }
 
-Views::Views(const RecognitionTask& task, const ViewSettings& settings)
-    : load_(task.load), settings_(settings), slots_(task.views.size()) {}
+Views::Views(std::size_t count, std::function<RgbdCloud(std::size_t)> load, const ViewSettings& settings)
+    : load_(std::move(load)), settings_(settings), slots_(count) {}
 
 const View& Views::operator[](std::size_t i) const {
   Slot& slot = slots_[i];

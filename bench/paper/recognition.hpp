@@ -60,10 +60,11 @@ std::vector<Fold> folds_of(const RecognitionTask& task);
 /// The task with every n-th of its views.
 RecognitionTask every_nth(const RecognitionTask& task, std::size_t n);
 
-/// The views of a task, each made when it is first asked for and then kept. Thread-safe.
+/// Views, of a task for example, each made when it is first asked for and then kept. Thread-safe.
 class Views {
  public:
-  Views(const RecognitionTask& task, const ViewSettings& settings);
+  Views(std::size_t count, std::function<RgbdCloud(std::size_t)> load, const ViewSettings& settings);
+  Views(const RecognitionTask& task, const ViewSettings& settings) : Views(task.views.size(), task.load, settings) {}
 
   const View& operator[](std::size_t i) const;
 

@@ -54,6 +54,7 @@ std::vector<NamedLook> looks_at(const datasets::PairSet& set) {
     look.view.points_of_cloud = false;
     look.view.most_keypoints = 0;
     look.correct_distance = 0.06f;
+    look.reciprocal = true;
     looks.push_back({"inliers", look, Figure::inlier_ratio, 1, true});
     return looks;
   }
@@ -146,7 +147,12 @@ class Builder {
       add_measure(measure, named.figure, baseline, named.figure == Figure::match_rate, rest);
       if (named.look.gain_seed != 0) add_measure(measure + gain_suffix, named.figure, baseline, false, measure);
       const std::size_t step = options_.quick ? std::max<std::size_t>(named.step, set.size() / 3) : named.step;
-      for (const std::size_t i : datasets::every_nth_by_rotation(set, step)) {
+      const std::vector<std::size_t> chosen = datasets::every_nth_by_rotation(set, step);
+      if (set.name == "frames") {
+        add_frames(set, named, measure, chosen);
+        continue;
+      }
+      for (const std::size_t i : chosen) {
         PairLook look = named.look;
         if (look.gain_seed != 0) look.gain_seed += static_cast<std::uint32_t>(i);
         if (look.paint) look.view.seed += 2 * static_cast<std::uint32_t>(i);
@@ -155,6 +161,18 @@ class Builder {
                                  return to_json(match_pair(set.load(i), set.groups[i], look, measure, *candidates));
                                }});
       }
+    }
+  }
+
+  /// Many pairs of few frames: each is described once.
+  void add_frames(const datasets::PairSet& set, const NamedLook& named, const std::string& measure,
+                  const std::vector<std::size_t>& chosen) {
+    const auto views = std::make_shared<paper::Views>(set.clouds, set.load_cloud, named.look.view);
+    for (const Candidate& candidate : named.named_only ? *named_ : *all_) {
+      add_unit(experiment_, {measure + "/" + candidate.configuration.name,
+                             [set, views, look = named.look, measure, chosen, candidate] {
+                               return to_json(match_pairs(set, chosen, *views, look, measure, candidate));
+                             }});
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "paper/truth.hpp"
 #include "tools/scene/random.hpp"
@@ -26,6 +27,10 @@ campaign::Fraction count_reciprocal(const Described& source, const Described& ta
   const auto right = std::count_if(pairs.begin(), pairs.end(),
                                    [&](const shortshot::MatchedPair& p) { return truth.is_right(p.source, p.target); });
   return {pairs.empty() ? 0.0 : static_cast<double>(right) / static_cast<double>(pairs.size()), 1.0};
+}
+
+campaign::Fraction count(const Described& source, const Described& target, const Truth& truth, const PairLook& look) {
+  return look.reciprocal ? count_reciprocal(source, target, truth) : count_nearest(source, target, truth);
 }
 
 /// Painted, with the lamp at the right of the source's camera; moved, at the left of the target's.
@@ -75,14 +80,37 @@ std::vector<Item> match_pair(datasets::ViewPair pair, const std::string& group, 
     for (Target& target : targets) {
       const Described of_target = target.view.describe(candidate.configuration);
       for (const Storage& storage : candidate.storages) {
-        const auto count = look.reciprocal ? count_reciprocal : count_nearest;
         target.item.counts[entry_name(candidate, storage)] =
-            count(coded(of_source, storage), coded(of_target, storage), target.truth);
+            count(coded(of_source, storage), coded(of_target, storage), target.truth, look);
       }
     }
   }
   std::vector<Item> items;
   for (Target& target : targets) items.push_back(std::move(target.item));
+  return items;
+}
+
+std::vector<Item> match_pairs(const datasets::PairSet& set, const std::vector<std::size_t>& pairs,
+                              const paper::Views& views, const PairLook& look, const std::string& measure,
+                              const Candidate& candidate) {
+  std::vector<Item> items;
+  std::map<std::size_t, Described> floats;
+  for (const std::size_t i : pairs) {
+    items.push_back({measure, set.pair_names[i], set.groups[i], {}});
+    for (const std::size_t cloud : {set.sources[i], set.targets[i]}) {
+      if (floats.count(cloud) == 0) floats[cloud] = views[cloud].describe(candidate.configuration);
+    }
+  }
+  for (const Storage& storage : candidate.storages) {
+    std::map<std::size_t, Described> codes;
+    for (const auto& [cloud, described] : floats) codes[cloud] = coded(described, storage);
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const std::size_t source = set.sources[pairs[k]];
+      const std::size_t target = set.targets[pairs[k]];
+      const Truth truth(set.truths[pairs[k]], views[source], views[target], look.correct_distance);
+      items[k].counts[entry_name(candidate, storage)] = count(codes[source], codes[target], truth, look);
+    }
+  }
   return items;
 }
 

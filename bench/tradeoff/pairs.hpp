@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "paper/datasets/pair_sets.hpp"
+#include "paper/recognition.hpp"
 #include "paper/view.hpp"
 #include "tradeoff/candidate.hpp"
 #include "tradeoff/items.hpp"
@@ -38,5 +39,11 @@ RgbdCloud amplified(RgbdCloud cloud, std::uint32_t seed);
 inline constexpr const char* gain_suffix = ", other gain";
 std::vector<Item> match_pair(datasets::ViewPair pair, const std::string& group, const PairLook& look,
                              const std::string& measure, const std::vector<Candidate>& candidates);
+
+/// The same of one candidate and many pairs that share clouds, each of which is described once. `views` are the set's
+/// clouds, looked at as `look` says, which must not change them (gain, paint).
+std::vector<Item> match_pairs(const datasets::PairSet& set, const std::vector<std::size_t>& pairs,
+                              const paper::Views& views, const PairLook& look, const std::string& measure,
+                              const Candidate& candidate);
 
 }  // namespace shortshot_bench::tradeoff

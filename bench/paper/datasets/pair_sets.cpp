@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -30,11 +31,23 @@ PairSet make_pair_set(const std::string& name, bool has_color, std::vector<PairE
   PairSet set;
   set.name = name;
   set.has_color = has_color;
+  std::map<std::string, std::size_t> numbers;
+  std::vector<std::string> clouds;
+  const auto number_of = [&](const std::string& cloud) {
+    const auto [place, is_new] = numbers.try_emplace(cloud, clouds.size());
+    if (is_new) clouds.push_back(cloud);
+    return place->second;
+  };
   for (const PairEntry& pair : pairs) {
+    set.sources.push_back(number_of(pair.source));
+    set.targets.push_back(number_of(pair.target));
+    set.truths.push_back(pair.truth);
     set.pair_names.push_back(pair.name);
     set.groups.push_back(pair.group);
     set.rotation_deg.push_back(rotation_degrees(pair.truth));
   }
+  set.clouds = clouds.size();
+  set.load_cloud = [clouds = std::move(clouds), read](std::size_t i) { return read(clouds.at(i)); };
   set.load = [pairs = std::move(pairs), read = std::move(read)](std::size_t i) {
     const PairEntry& pair = pairs.at(i);
     return ViewPair{pair.name, read(pair.source), read(pair.target), pair.truth, rotation_degrees(pair.truth)};

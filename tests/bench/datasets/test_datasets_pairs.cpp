@@ -89,6 +89,10 @@ TEST_CASE("view pairs have colors and are grouped by their source; a folder may 
   CHECK(pair.source.xyz[0] == 4.0F);
   CHECK(pair.target.xyz[0] == 5.0F);
   CHECK(pair.target.rgb == std::vector<std::uint8_t>{1, 2, 3});
+  REQUIRE(sets[1].clouds == 2);
+  CHECK(sets[1].load_cloud(sets[1].sources[0]).xyz[0] == 4.0F);
+  CHECK(sets[1].load_cloud(sets[1].targets[0]).xyz[0] == 5.0F);
+  CHECK(sets[1].truths[0] == pair.truth);
 }
 
 TEST_CASE("a copy of the set outlives it; there is no pair past the last") {

@@ -142,4 +142,41 @@ TEST_CASE("a cloud matches itself; shifted truth finds nothing") {
   }
 }
 
+TEST_CASE("many pairs of few clouds: as pair by pair, with a reciprocal match in the place of a nearest one, too") {
+  const RgbdCloud scene = small_scene();
+  const RgbdCloud other = amplified(scene, 3);
+  const datasets::RigidMotion at_rest{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+  datasets::PairSet set;
+  set.pair_names = {"unused", "itself", "other"};
+  set.groups = {"", "a", "a"};
+  set.sources = {1, 0, 0};
+  set.targets = {0, 0, 1};
+  set.truths = {at_rest, at_rest, at_rest};
+  PairLook look;
+  look.view.leaf = 0.05f;
+  look.view.radius = 0.1f;
+  look.view.normal_radius = 0.03f;
+  look.view.points_of_cloud = true;
+  const paper::Views views(
+      2, [&](std::size_t i) { return i == 0 ? scene : other; }, look.view);
+  for (const bool reciprocal : {false, true}) {
+    look.reciprocal = reciprocal;
+    for (const Candidate& candidate : candidates(true)) {
+      const std::vector<Item> items = match_pairs(set, {1, 2}, views, look, "m", candidate);
+      REQUIRE(items.size() == 2);
+      const datasets::ViewPair pairs[] = {{"itself", scene, scene, at_rest}, {"other", scene, other, at_rest}};
+      for (std::size_t i = 0; i < 2; ++i) {
+        const Item alone = match_pair(pairs[i], "a", look, "m", {candidate}).front();
+        CHECK(items[i].name == alone.name);
+        for (const auto& [entry, count] : alone.counts) {
+          CAPTURE(entry);
+          CHECK(items[i].counts.at(entry).numerator == count.numerator);
+          CHECK(items[i].counts.at(entry).denominator == count.denominator);
+          CHECK((count.denominator == 1.0) == reciprocal);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
