@@ -2725,6 +2725,21 @@ inline namespace SHORTSHOT_CODE {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Is this the index of a point of the cloud? Negative ones become far too large, and wide ones are compared as they
+/// are: where std::size_t has 32 bits, 2^32 is not point 0.
+template <class Index>
+[[nodiscard, gnu::always_inline]] inline bool is_index(const CloudView& cloud, Index index) noexcept {
+  using Number = typename std::conditional_t<(sizeof(Index) > sizeof(std::size_t)), std::make_unsigned<Index>,
+                                             std::common_type<std::size_t>>::type;
+  return static_cast<Number>(index) < cloud.size;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
 #endif  // SHORTSHOT_CLOUD_KEYPOINT_HPP
 
 namespace shortshot {
@@ -6522,8 +6537,8 @@ template <class... Kinds, class Key, class... Own>
 template <class D, class Place>
 [[nodiscard]] inline Status find_key(const CloudView& cloud, const Place& place, KeyPoint& key) noexcept {
   if constexpr (std::is_integral<Place>::value) {
-    const auto index = static_cast<std::size_t>(place);  // a negative one becomes far too large
-    if (index >= cloud.size) return Status::bad_keypoint;
+    if (!is_index(cloud, place)) return Status::bad_keypoint;
+    const auto index = static_cast<std::size_t>(place);
     key.position = point(cloud, index);
     key.has_color = D::needs_colors;
     key.has_intensity = D::needs_intensities;
@@ -9414,9 +9429,9 @@ template <class Index>
 [[nodiscard]] bool keypoint_at(const CloudView& cloud, const std::vector<Index>& keypoints, std::size_t row,
                                KeyPoint& key) noexcept {
   static_assert(std::is_integral<Index>::value, "extract() supports key points as indices or as KeyPoints");
-  const auto index = static_cast<std::size_t>(keypoints[row]);  // a negative one becomes far too large
-  if (index >= cloud.size) return false;
-  key = keypoint(cloud, index);
+  const Index index = keypoints[row];
+  if (!is_index(cloud, index)) return false;
+  key = keypoint(cloud, static_cast<std::size_t>(index));
   return true;
 }
 

@@ -43,9 +43,9 @@ template <class Index>
 [[nodiscard]] bool keypoint_at(const CloudView& cloud, const std::vector<Index>& keypoints, std::size_t row,
                                KeyPoint& key) noexcept {
   static_assert(std::is_integral<Index>::value, "extract() supports key points as indices or as KeyPoints");
-  const auto index = static_cast<std::size_t>(keypoints[row]);  // a negative one becomes far too large
-  if (index >= cloud.size) return false;
-  key = keypoint(cloud, index);
+  const Index index = keypoints[row];
+  if (!is_index(cloud, index)) return false;
+  key = keypoint(cloud, static_cast<std::size_t>(index));
   return true;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
 #include "../config.hpp"
 #include "cloud.hpp"
@@ -42,3 +43,18 @@ inline namespace SHORTSHOT_CODE {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Is this the index of a point of the cloud? Negative ones become far too large, and wide ones are compared as they
+/// are: where std::size_t has 32 bits, 2^32 is not point 0.
+template <class Index>
+[[nodiscard, gnu::always_inline]] inline bool is_index(const CloudView& cloud, Index index) noexcept {
+  using Number = typename std::conditional_t<(sizeof(Index) > sizeof(std::size_t)), std::make_unsigned<Index>,
+                                             std::common_type<std::size_t>>::type;
+  return static_cast<Number>(index) < cloud.size;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

@@ -109,8 +109,8 @@ template <class... Kinds, class Key, class... Own>
 template <class D, class Place>
 [[nodiscard]] inline Status find_key(const CloudView& cloud, const Place& place, KeyPoint& key) noexcept {
   if constexpr (std::is_integral<Place>::value) {
-    const auto index = static_cast<std::size_t>(place);  // a negative one becomes far too large
-    if (index >= cloud.size) return Status::bad_keypoint;
+    if (!is_index(cloud, place)) return Status::bad_keypoint;
+    const auto index = static_cast<std::size_t>(place);
     key.position = point(cloud, index);
     key.has_color = D::needs_colors;
     key.has_intensity = D::needs_intensities;
