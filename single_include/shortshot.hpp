@@ -8592,6 +8592,15 @@ class GridSearch {
   /// and so do extract() and describe_at().
   GridSearch(const CloudView& cloud, float radius) { static_cast<void>(build(cloud, radius)); }
 
+  /// One that was moved from is as one that was never built: empty_cloud.
+  GridSearch(GridSearch&& other) noexcept { swap(other); }
+  GridSearch(const GridSearch& other) = default;
+  GridSearch& operator=(GridSearch other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~GridSearch() = default;
+
   /// See GridIndex::build(); may throw std::bad_alloc.
   [[nodiscard]] Status build(const CloudView& cloud, float radius) {
     const std::size_t points = validate(cloud) == Status::ok ? cloud.size : 0;  // a bad view says anything of its size
@@ -8626,6 +8635,13 @@ class GridSearch {
 
  private:
   static constexpr std::size_t planning_cells = 64;
+
+  void swap(GridSearch& other) noexcept {
+    std::swap(grid_, other.grid_);
+    order_.swap(other.order_);
+    cell_end_.swap(other.cell_end_);
+    xyz_.swap(other.xyz_);
+  }
 
   detail::Grid<std::uint32_t> grid_{};
   std::vector<std::uint32_t> order_;
@@ -9136,12 +9152,11 @@ class NormalEstimator {
     row_ = image ? cloud.width : 0;
   }
 
+  /// Of the k-th to the one before the end-th point; `normals` has NaN for all of them before.
   void estimate(std::size_t begin, std::size_t end) {
-    constexpr float none = std::numeric_limits<float>::quiet_NaN();
     std::size_t used = 0;
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t i = in_zigzag(k);
-      normals_[i] = {none, none, none};
       const Point p = point(cloud_, i);
       if (!is_finite(p)) continue;
       index_[used] = i;
@@ -9278,7 +9293,7 @@ inline namespace SHORTSHOT_CODE {
 /// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint (not
 /// finite), or what the search's build() returned; `normals` is empty then. Allocates the normals (none, if they fit
 /// already) and about 30 bytes for each neighbor of the largest neighborhood and each thread. May throw what
-/// extract() may.
+/// extract() may; `normals` is empty then, or NaN where none was estimated by then.
 template <class Search, class Threads = unsigned>
 [[nodiscard]] Status estimate_normals(const CloudView& cloud, const Search& search, Radius radius,
                                       const Viewpoint& viewpoint, std::vector<SurfaceNormal>& normals,
@@ -9293,7 +9308,8 @@ template <class Search, class Threads = unsigned>
   const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
   std::vector<detail::GrowingWorkspace> workspaces(team);
   for (detail::GrowingWorkspace& workspace : workspaces) workspace.reserve(1024);
-  normals.resize(cloud.size);
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  normals.assign(cloud.size, {none, none, none});  // and so they stay where an executor throws before their turn
   detail::for_blocks(
       executor, team, cloud.size, detail::normal_block, [&](std::size_t thread, std::size_t begin, std::size_t end) {
         detail::NormalEstimator<Search>(cloud, search, radius, viewpoint, workspaces[thread], normals.data())
@@ -9504,8 +9520,10 @@ class Extractor {
       for (std::size_t row = begin; row < end; ++row) {
         KeyPoint& key = out.keypoints[row];
         Status& status = out.status[row];
-        status = Status::bad_keypoint;
-        if (!detail::keypoint_at(cloud, keypoints, row, key)) continue;
+        if (!detail::keypoint_at(cloud, keypoints, row, key)) {
+          status = Status::bad_keypoint;
+          continue;
+        }
         status = extract_row(cloud, search, support, workspaces_[thread], out, row, finish, own...);
         if (status == Status::ok) continue;
         detail::clear_row(out, row);
@@ -10350,11 +10368,11 @@ template <class D, class Stored>
   if (features.values.size() != features.size() * std::size_t{D::size}) return Status::bad_rows;
   out.descriptors.resize(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) detail::Storage<Stored>::make(features[i], out.descriptors[i]);
-  out.status = features.status;
   out.keypoints = features.keypoints;
   out.frames = features.frames;
   out.frame_confidence = features.frame_confidence;
   out.neighbors = features.neighbors;
+  out.status = features.status;  // last: whatever is thrown before, there is no row
   return Status::ok;
 }
 
@@ -12119,7 +12137,7 @@ template <class Rows = DescriptorRows, class Threads = unsigned>
 
   auto&& executor = detail::executor_of(threads, detail::query_blocks(queries.count));
   const auto best = detail::nearest_candidates(queries, database, k, executor);
-  out.resize(best.size());
+  out.assign(best.size(), {no_row, std::numeric_limits<float>::infinity()});  // distances of one's own may throw
   for (std::size_t i = 0; i < best.size(); ++i) out[i] = {best[i].row, detail::distance_of(queries, best[i])};
   return Status::ok;
 }
@@ -12868,6 +12886,16 @@ class Recognizer {
  public:
   Recognizer() = default;
   explicit Recognizer(const RecognizerOptions& options) noexcept : options_(options) {}
+
+  /// One that was moved from has its options still, and was never trained.
+  Recognizer(Recognizer&& other) noexcept : options_(other.options_) { std::swap(codebook_, other.codebook_); }
+  Recognizer(const Recognizer& other) = default;
+  Recognizer& operator=(Recognizer other) noexcept {
+    std::swap(options_, other.options_);
+    std::swap(codebook_, other.codebook_);
+    return *this;
+  }
+  ~Recognizer() = default;
 
   [[nodiscard]] const RecognizerOptions& options() const noexcept { return options_; }
   void set_options(const RecognizerOptions& options) noexcept { options_ = options; }

@@ -108,12 +108,11 @@ class NormalEstimator {
     row_ = image ? cloud.width : 0;
   }
 
+  /// Of the k-th to the one before the end-th point; `normals` has NaN for all of them before.
   void estimate(std::size_t begin, std::size_t end) {
-    constexpr float none = std::numeric_limits<float>::quiet_NaN();
     std::size_t used = 0;
     for (std::size_t k = begin; k < end; ++k) {
       const std::size_t i = in_zigzag(k);
-      normals_[i] = {none, none, none};
       const Point p = point(cloud_, i);
       if (!is_finite(p)) continue;
       index_[used] = i;
@@ -250,7 +249,7 @@ inline namespace SHORTSHOT_CODE {
 /// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint (not
 /// finite), or what the search's build() returned; `normals` is empty then. Allocates the normals (none, if they fit
 /// already) and about 30 bytes for each neighbor of the largest neighborhood and each thread. May throw what
-/// extract() may.
+/// extract() may; `normals` is empty then, or NaN where none was estimated by then.
 template <class Search, class Threads = unsigned>
 [[nodiscard]] Status estimate_normals(const CloudView& cloud, const Search& search, Radius radius,
                                       const Viewpoint& viewpoint, std::vector<SurfaceNormal>& normals,
@@ -265,7 +264,8 @@ template <class Search, class Threads = unsigned>
   const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
   std::vector<detail::GrowingWorkspace> workspaces(team);
   for (detail::GrowingWorkspace& workspace : workspaces) workspace.reserve(1024);
-  normals.resize(cloud.size);
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  normals.assign(cloud.size, {none, none, none});  // and so they stay where an executor throws before their turn
   detail::for_blocks(
       executor, team, cloud.size, detail::normal_block, [&](std::size_t thread, std::size_t begin, std::size_t end) {
         detail::NormalEstimator<Search>(cloud, search, radius, viewpoint, workspaces[thread], normals.data())

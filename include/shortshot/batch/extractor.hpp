@@ -118,8 +118,10 @@ class Extractor {
       for (std::size_t row = begin; row < end; ++row) {
         KeyPoint& key = out.keypoints[row];
         Status& status = out.status[row];
-        status = Status::bad_keypoint;
-        if (!detail::keypoint_at(cloud, keypoints, row, key)) continue;
+        if (!detail::keypoint_at(cloud, keypoints, row, key)) {
+          status = Status::bad_keypoint;
+          continue;
+        }
         status = extract_row(cloud, search, support, workspaces_[thread], out, row, finish, own...);
         if (status == Status::ok) continue;
         detail::clear_row(out, row);

@@ -147,7 +147,7 @@ template <class Rows = DescriptorRows, class Threads = unsigned>
 
   auto&& executor = detail::executor_of(threads, detail::query_blocks(queries.count));
   const auto best = detail::nearest_candidates(queries, database, k, executor);
-  out.resize(best.size());
+  out.assign(best.size(), {no_row, std::numeric_limits<float>::infinity()});  // distances of one's own may throw
   for (std::size_t i = 0; i < best.size(); ++i) out[i] = {best[i].row, detail::distance_of(queries, best[i])};
   return Status::ok;
 }

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "../cloud/cloud.hpp"
@@ -66,6 +67,16 @@ class Recognizer {
  public:
   Recognizer() = default;
   explicit Recognizer(const RecognizerOptions& options) noexcept : options_(options) {}
+
+  /// One that was moved from has its options still, and was never trained.
+  Recognizer(Recognizer&& other) noexcept : options_(other.options_) { std::swap(codebook_, other.codebook_); }
+  Recognizer(const Recognizer& other) = default;
+  Recognizer& operator=(Recognizer other) noexcept {
+    std::swap(options_, other.options_);
+    std::swap(codebook_, other.codebook_);
+    return *this;
+  }
+  ~Recognizer() = default;
 
   [[nodiscard]] const RecognizerOptions& options() const noexcept { return options_; }
   void set_options(const RecognizerOptions& options) noexcept { options_ = options; }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "../cloud/cloud.hpp"
@@ -25,6 +26,15 @@ class GridSearch {
   /// Sorts the cloud into cells of `radius`, or of half of it where points are dense. If that fails status() says why,
   /// and so do extract() and describe_at().
   GridSearch(const CloudView& cloud, float radius) { static_cast<void>(build(cloud, radius)); }
+
+  /// One that was moved from is as one that was never built: empty_cloud.
+  GridSearch(GridSearch&& other) noexcept { swap(other); }
+  GridSearch(const GridSearch& other) = default;
+  GridSearch& operator=(GridSearch other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~GridSearch() = default;
 
   /// See GridIndex::build(); may throw std::bad_alloc.
   [[nodiscard]] Status build(const CloudView& cloud, float radius) {
@@ -60,6 +70,13 @@ class GridSearch {
 
  private:
   static constexpr std::size_t planning_cells = 64;
+
+  void swap(GridSearch& other) noexcept {
+    std::swap(grid_, other.grid_);
+    order_.swap(other.order_);
+    cell_end_.swap(other.cell_end_);
+    xyz_.swap(other.xyz_);
+  }
 
   detail::Grid<std::uint32_t> grid_{};
   std::vector<std::uint32_t> order_;

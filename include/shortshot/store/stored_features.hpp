@@ -109,11 +109,11 @@ template <class D, class Stored>
   if (features.values.size() != features.size() * std::size_t{D::size}) return Status::bad_rows;
   out.descriptors.resize(features.size());
   for (std::size_t i = 0; i < features.size(); ++i) detail::Storage<Stored>::make(features[i], out.descriptors[i]);
-  out.status = features.status;
   out.keypoints = features.keypoints;
   out.frames = features.frames;
   out.frame_confidence = features.frame_confidence;
   out.neighbors = features.neighbors;
+  out.status = features.status;  // last: whatever is thrown before, there is no row
   return Status::ok;
 }
 

@@ -15,6 +15,7 @@
 namespace {
 
 std::atomic<std::size_t> allocations{0};
+std::atomic<long> until_failure{-1};  // calls of operator new that are granted before one throws; below 0: all are
 
 }  // namespace
 
@@ -57,6 +58,7 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
   return std::malloc(size > 0 ? size : 1);
 }
 void* operator new(std::size_t size) {
+  if (until_failure >= 0 && until_failure-- == 0) throw std::bad_alloc();
   if (void* memory = operator new(size, std::nothrow)) return memory;
   throw std::bad_alloc();
 }
@@ -147,4 +149,113 @@ TEST_CASE("allocation: threads that are started are the only thing that is alloc
     CHECK(count > 0);   // the count is seen to work on other threads' behalf
     CHECK(count <= 8);  // two threads and their list, counted once by operator new and once by malloc; C runtime's own
   }
+}
+
+namespace {
+
+/// Makes the first allocation of a call fail, then the second, and so on until the call ends: check() after each.
+template <class Prepare, class Call, class Check>
+void fail_one_after_the_other(const Prepare& prepare, const Call& call, const Check& check) {
+  for (long granted = 0; granted < 1000; ++granted) {
+    prepare();
+    bool failed = false;
+    Status status = Status::ok;
+    until_failure = granted;
+    try {
+      status = call();
+    } catch (const std::bad_alloc&) {
+      failed = true;
+    }
+    until_failure = -1;
+    check();
+    if (failed) continue;
+    CHECK(status == Status::ok);
+    CHECK(granted > 0);  // the first one must be seen to fail
+    return;
+  }
+  CHECK(false);
+}
+
+template <class D>
+ss::Features<D> features_of(const Frame& frame) {
+  ss::Features<D> features;
+  const ss::GridSearch search(frame.cloud.view(), radius);
+  REQUIRE(ss::extract(frame.cloud.view(), search, frame.keypoints, radius, features) == Status::ok);
+  return features;
+}
+
+/// What is ok must be a row of `right`.
+template <class D>
+void check_rows(const ss::Features<D>& features, const ss::Features<D>& right) {
+  for (std::size_t row = 0; row < features.size(); ++row) {
+    if (features.status[row] != Status::ok) continue;
+    REQUIRE(std::vector<float>(features[row], features[row] + D::size) ==
+            std::vector<float>(right[row], right[row] + D::size));
+    REQUIRE(features.keypoints[row].position.x == right.keypoints[row].position.x);
+    REQUIRE(features.frames[row].x[0] == right.frames[row].x[0]);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("allocation: whichever fails in extract() and describe_cloud(), what is ok was computed in that call") {
+  using D = ss::Scsh336;
+  const Frame first(1), second(2);
+  const ss::Features<D> before = features_of<D>(first), right = features_of<D>(second);
+  const ss::GridSearch search(second.cloud.view(), radius);
+  ss::Features<D> kept;
+  fail_one_after_the_other([&] { kept = before; },
+                           [&] { return ss::extract(second.cloud.view(), search, second.keypoints, radius, kept); },
+                           [&] { check_rows(kept, right); });
+  ss::CloudOptions options;
+  options.best_frames = 0.5f;
+  ss::Features<D> described;
+  REQUIRE(ss::describe_cloud(second.cloud.view(), options, described) == Status::ok);
+  options.best_frames = 1.0f;
+  ss::Features<D> all;
+  REQUIRE(ss::describe_cloud(second.cloud.view(), options, all) == Status::ok);
+  options.best_frames = 0.5f;
+  fail_one_after_the_other([&] { kept = before; },
+                           [&] { return ss::describe_cloud(second.cloud.view(), options, kept); },
+                           [&] { check_rows(kept, all); });
+  CHECK(kept.status == described.status);
+}
+
+TEST_CASE("allocation: whichever fails in estimate_normals(), store() and a grid, nothing of before is left") {
+  using D = ss::Ssh32;
+  const Frame first(1), second(2);
+  const ss::GridSearch search(second.cloud.view(), radius);
+  const std::vector<ss::SurfaceNormal> others(100, {0.0f, 0.0f, 1.0f});
+  std::vector<ss::SurfaceNormal> normals;
+  fail_one_after_the_other([&] { normals = others; },
+                           [&] { return ss::estimate_normals(second.cloud.view(), search, radius, {}, normals); },
+                           [&] { CHECK((normals.empty() || normals.size() == points)); });
+
+  const ss::Features<D> before = features_of<D>(first), features = features_of<D>(second);
+  using Stored = ss::StoredFeatures<ss::ByteDescriptor<D>>;
+  Stored stored, stored_before;
+  REQUIRE(ss::store(before, stored_before) == Status::ok);
+  fail_one_after_the_other([&] { stored = stored_before; }, [&] { return ss::store(features, stored); },
+                           [&] {
+                             const bool whole = stored.descriptors.size() == features.size() &&
+                                                stored.frames.size() == features.size() &&
+                                                stored.neighbors == features.neighbors;
+                             CHECK((stored.size() == 0 || whole));
+                           });
+
+  ss::GridSearch grid;
+  const auto check_grid = [&] {
+    ss::Features<D> found;
+    const Status status = ss::extract(second.cloud.view(), grid, second.keypoints, radius, found);
+    CHECK((status != Status::ok || found.values == features.values));
+  };
+  fail_one_after_the_other([&] { grid = ss::GridSearch(); }, [&] { return grid.build(second.cloud.view(), radius); },
+                           check_grid);
+  const ss::GridSearch full(second.cloud.view(), radius / 4), smaller(second.cloud.view(), radius);
+  fail_one_after_the_other([&] { grid = smaller; },
+                           [&] {
+                             grid = full;
+                             return Status::ok;
+                           },
+                           check_grid);
 }
