@@ -1247,7 +1247,8 @@ inline namespace SHORTSHOT_CODE {
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
 
-/// Result of every call that can fail. Whatever is not `ok` comes with a zeroed output, never with NaN.
+/// Result of every call that can fail. Whatever is not `ok` comes with a zeroed output, never with NaN; unread_channel
+/// alone comes with a view of all the rest.
 // (version 14 of it does not know attributes of enumerations)
 // clang-format off
 enum class [[nodiscard]] Status : std::uint8_t {
@@ -1280,15 +1281,22 @@ enum class [[nodiscard]] Status : std::uint8_t {
   missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
   unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
   sizes_differ,         ///< a view's channels have not as many elements as it has points
-  no_coordinates,       ///< a message has no fields x, y and z of floats
-  field_outside,        ///< a message's field x, y or z ends behind its point
-  short_data,           ///< a message has less data than its width, height and step say
-  padded_rows,          ///< a message's rows are not as long as their points
-  other_byte_order,     ///< a message's numbers have the other byte order
+  no_coordinates,       ///< a message has no fields x, y and z
+  field_outside,        ///< a message's field ends behind its point
+  short_data,           ///< a message has less data than its width, height and steps say
+  padded_rows,          ///< a message's rows are longer than their points: copy_point_cloud2()
+  other_byte_order,     ///< a message's numbers have the other byte order: copy_point_cloud2()
+  needs_conversion,     ///< a message's field is no FLOAT32: copy_point_cloud2()
+  unread_channel,       ///< a message has colors, normals or intensities that are not read; the view has the rest
+  bad_field,            ///< a message's field x, y or z is of no type that there is, or several numbers
+  empty_field,          ///< a message's field says that it is no number (count 0)
+  no_point_step,        ///< a message's points are of no byte
+  too_many_points,      ///< a message has 2^32 points or more
+  short_rows,           ///< a message's rows are shorter than their points, and its data is not as long as all points
 };
 // clang-format on
 
-inline constexpr int status_count = static_cast<int>(Status::other_byte_order) + 1;
+inline constexpr int status_count = static_cast<int>(Status::short_rows) + 1;
 
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
@@ -1325,11 +1333,18 @@ inline namespace SHORTSHOT_CODE {
     case Status::missing_intensities: return "the descriptor needs intensities and there are none";
     case Status::unsure_frame: return "other key points have surer frames";
     case Status::sizes_differ: return "the view's channels have not as many elements as it has points";
-    case Status::no_coordinates: return "the message has no fields x, y and z of FLOAT32";
+    case Status::no_coordinates: return "the message has no fields x, y and z";
     case Status::field_outside: return "a field of the message lies outside of its point";
-    case Status::short_data: return "the message has less data than its width, height and point_step say";
-    case Status::padded_rows: return "the message's row_step is not width * point_step";
-    case Status::other_byte_order: return "the message has the other byte order";
+    case Status::short_data: return "the message has less data than its width, height, point_step and row_step say";
+    case Status::padded_rows: return "the message's rows are padded: copy_point_cloud2() reads them";
+    case Status::other_byte_order: return "the message has the other byte order: copy_point_cloud2() reads it";
+    case Status::needs_conversion: return "a field of the message is not FLOAT32: copy_point_cloud2() reads it";
+    case Status::unread_channel: return "the message's colors, normals or intensities are not of types that are read";
+    case Status::bad_field: return "x, y and z of the message are not one number each";
+    case Status::empty_field: return "a field of the message has count 0";
+    case Status::no_point_step: return "the message's point_step is 0";
+    case Status::too_many_points: return "the message has 2^32 points or more";
+    case Status::short_rows: return "the message's row_step is less than width * point_step";
   }
   return "unknown status";
 }
@@ -8451,115 +8466,351 @@ CloudView view_of(const Container& cloud, const Normals&& normals) = delete;
 #ifndef SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
 #define SHORTSHOT_CLOUD_VIEW_POINT_CLOUD2_HPP
 
+// shortshot/cloud/point_cloud2.hpp: what a sensor_msgs/PointCloud2-shaped message says of itself, checked before any of
+// its bytes is read: which fields are its coordinates, colors, normals and intensities, and where its rows lie.
+#ifndef SHORTSHOT_CLOUD_POINT_CLOUD2_HPP
+#define SHORTSHOT_CLOUD_POINT_CLOUD2_HPP
+
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// PointField datatypes that can be read in place.
-inline constexpr int field_uint8 = 2;
-inline constexpr int field_uint16 = 4;
-inline constexpr int field_uint32 = 6;
-inline constexpr int field_float32 = 7;
+/// PointField's datatypes.
+enum FieldType : int {
+  field_int8 = 1,
+  field_uint8,
+  field_int16,
+  field_uint16,
+  field_int32,
+  field_uint32,
+  field_float32,
+  field_float64
+};
 
-[[nodiscard]] inline bool is_little_endian() noexcept {
-  const std::uint16_t one = 1;
-  unsigned char first = 0;
-  std::memcpy(&first, &one, 1);
-  return first == 1;
+/// Bytes of a number; 0 for a type that there is not.
+[[nodiscard]] inline std::uint64_t size_of_type(std::uint64_t type) noexcept {
+  constexpr std::uint8_t sizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
+  return type < sizeof sizes ? sizes[type] : 0;
 }
 
-template <class Name>
-[[nodiscard]] bool is_named(const Name& name, const char* text) noexcept {
-  return name == text;
+/// A message's numbers have 32 bits. What has more in another's struct, and what is negative, becomes 2^32.
+template <class Number>
+[[nodiscard]] std::uint64_t message_number(const Number& number) noexcept {
+  constexpr std::uint64_t too_large = std::uint64_t{1} << 32;
+  const auto wide = static_cast<std::uint64_t>(number);
+  return wide < too_large ? wide : too_large;
 }
 
-inline constexpr std::int64_t no_field = -1;       ///< of this name and a readable type
-inline constexpr std::int64_t outside_point = -2;  ///< there is one, but it ends behind its point
+template <class Field, class = void>
+struct HasElementCount : std::false_type {};
+template <class Field>
+struct HasElementCount<Field, std::void_t<decltype(std::declval<const Field&>().count)>> : std::true_type {};
 
-/// Offset of a field with this name and a readable type, or one of these.
+struct MessageField {
+  bool exists;
+  std::uint64_t offset;
+  std::uint64_t type;
+  std::uint64_t count;
+};
+
+/// The first field of a name.
 template <class Message>
-[[nodiscard]] std::int64_t offset_of(const Message& message, const char* name, bool packed_color) noexcept {
+[[nodiscard]] MessageField field_of(const Message& message, const char* name) noexcept {
   for (const auto& field : message.fields) {
-    if (!is_named(field.name, name)) continue;
-    const int type = static_cast<int>(field.datatype);
-    const bool readable = type == field_float32 || (packed_color && type == field_uint32);
-    const bool inside = static_cast<std::uint64_t>(field.offset) + 4 <= static_cast<std::uint64_t>(message.point_step);
-    if (!readable) return no_field;
-    return inside ? static_cast<std::int64_t>(field.offset) : outside_point;
-  }
-  return no_field;
-}
-
-/// The channel of a field `intensity` of FLOAT32, UINT8 or UINT16; absent if there is none.
-template <class Message>
-[[nodiscard]] ScalarChannel intensities_of(const Message& message, const unsigned char* data) noexcept {
-  for (const auto& field : message.fields) {
-    if (!is_named(field.name, "intensity")) continue;
-    const int type = static_cast<int>(field.datatype);
-    const bool readable = type == field_float32 || type == field_uint8 || type == field_uint16;
-    const std::uint64_t size_bytes = type == field_float32 ? 4 : type == field_uint16 ? 2 : 1;
-    const std::uint64_t end = static_cast<std::uint64_t>(field.offset) + size_bytes;
-    if (!readable || end > static_cast<std::uint64_t>(message.point_step)) return {};
-    const ScalarType scalar = type == field_float32  ? ScalarType::float32
-                              : type == field_uint16 ? ScalarType::uint16
-                                                     : ScalarType::uint8;
-    return {data + field.offset, static_cast<std::size_t>(message.point_step), scalar};
+    if (!(field.name == name)) continue;
+    MessageField found{true, message_number(field.offset), message_number(field.datatype), 1};
+    if constexpr (HasElementCount<std::decay_t<decltype(field)>>::value) found.count = message_number(field.count);
+    return found;
   }
   return {};
 }
 
+/// Three numbers of a point, or one: where they are, and whether they can be read: ok in place, needs_conversion by a
+/// copy, else why not.
+struct MessageChannel {
+  Status status;
+  std::size_t offset[3];
+  int type[3];
+};
+
+/// Which types a channel may have, and what it is to have none, or only some of its fields.
+struct ChannelRule {
+  Status (*accept)(std::uint64_t type, std::uint64_t count);
+  Status missing;
+  Status partial;
+};
+
+inline Status accept_coordinate(std::uint64_t type, std::uint64_t count) noexcept {
+  if (count != 1 || size_of_type(type) == 0) return Status::bad_field;
+  return type == field_float32 ? Status::ok : Status::needs_conversion;
+}
+inline Status accept_normal(std::uint64_t type, std::uint64_t count) noexcept {
+  if (count != 1 || (type != field_float32 && type != field_float64)) return Status::unread_channel;
+  return type == field_float32 ? Status::ok : Status::needs_conversion;
+}
+inline Status accept_intensity(std::uint64_t type, std::uint64_t count) noexcept {
+  if (count != 1 || size_of_type(type) == 0) return Status::unread_channel;
+  const bool in_place = type == field_float32 || type == field_uint8 || type == field_uint16;
+  return in_place ? Status::ok : Status::needs_conversion;
+}
+/// Other types than bytes may mean 0 to 1, 0 to 255 or 0 to 65535: a guess could be a wrong color.
+inline Status accept_byte(std::uint64_t type, std::uint64_t count) noexcept {
+  return count == 1 && type == field_uint8 ? Status::ok : Status::unread_channel;
+}
+/// 0xAARRGGBB in 32 bits, whatever they are called.
+inline Status accept_packed(std::uint64_t type, std::uint64_t count) noexcept {
+  const bool word = type == field_int32 || type == field_uint32 || type == field_float32;
+  return count == 1 && word ? Status::ok : Status::unread_channel;
+}
+inline Status accept_packed_or_bytes(std::uint64_t type, std::uint64_t count) noexcept {
+  return count == 3 && type == field_uint8 ? Status::ok : accept_packed(type, count);
+}
+
+/// How bad it is. From `damaged` on the message contradicts itself, and nothing of it is believed.
+inline constexpr int missing_channel = 3;
+inline constexpr int damaged_channel = 4;
+[[nodiscard]] inline int severity(Status status) noexcept {
+  switch (status) {
+    case Status::ok: return 0;
+    case Status::needs_conversion: return 1;
+    case Status::bad_field:
+    case Status::unread_channel: return 2;
+    case Status::empty_field: return damaged_channel;
+    case Status::field_outside: return damaged_channel + 1;
+    default: return missing_channel;
+  }
+}
+
+/// The channel of `count` fields; if none of them is there, its status is rule.missing.
+template <class Message>
+[[nodiscard]] MessageChannel channel_of(const Message& message, const char* const* names, std::size_t count,
+                                        const ChannelRule& rule) noexcept {
+  MessageChannel channel{};
+  std::size_t missing = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const MessageField field = field_of(message, names[k]);
+    if (!field.exists) {
+      ++missing;
+      continue;
+    }
+    const std::uint64_t size = size_of_type(field.type);
+    const std::uint64_t end = field.offset + (size == 0 ? 1 : size) * field.count;
+    Status status = rule.accept(field.type, field.count);
+    if (end > message_number(message.point_step)) status = Status::field_outside;
+    if (field.count == 0) status = Status::empty_field;
+    if (severity(status) > severity(channel.status)) channel.status = status;
+    if (severity(status) >= damaged_channel) continue;
+    channel.offset[k] = static_cast<std::size_t>(field.offset);
+    channel.type[k] = static_cast<int>(field.type <= field_float64 ? field.type : 0);
+  }
+  if (severity(channel.status) >= damaged_channel || missing == 0) return channel;
+  channel.status = missing == count ? rule.missing : rule.partial;
+  return channel;
+}
+
+/// Of two channels that mean the same: damage is not passed over, else the one that can be read more easily.
+[[nodiscard]] inline const MessageChannel& better(const MessageChannel& a, const MessageChannel& b) noexcept {
+  const int of_a = severity(a.status);
+  const int of_b = severity(b.status);
+  if (of_a >= damaged_channel || of_b >= damaged_channel) return of_a >= of_b ? a : b;
+  return of_a <= of_b ? a : b;
+}
+
+template <class Message>
+[[nodiscard]] MessageChannel coordinates_of(const Message& message) noexcept {
+  constexpr const char* names[][3] = {{"x", "y", "z"}, {"X", "Y", "Z"}};
+  const ChannelRule rule{accept_coordinate, Status::no_coordinates, Status::no_coordinates};
+  return better(channel_of(message, names[0], 3, rule), channel_of(message, names[1], 3, rule));
+}
+
+template <class Message>
+[[nodiscard]] MessageChannel normals_in(const Message& message) noexcept {
+  constexpr const char* names[][3] = {{"normal_x", "normal_y", "normal_z"}, {"nx", "ny", "nz"}};
+  const ChannelRule rule{accept_normal, Status::missing_normals, Status::unread_channel};
+  return better(channel_of(message, names[0], 3, rule), channel_of(message, names[1], 3, rule));
+}
+
+template <class Message>
+[[nodiscard]] MessageChannel intensities_in(const Message& message) noexcept {
+  constexpr const char* name = "intensity";
+  return channel_of(message, &name, 1, {accept_intensity, Status::missing_intensities, Status::missing_intensities});
+}
+
+/// Offsets are those of the bytes red, green and blue.
+template <class Message>
+[[nodiscard]] MessageChannel colors_in(const Message& message) noexcept {
+  constexpr const char* words[] = {"rgb", "rgba"};
+  constexpr const char* bytes[][3] = {
+      {"r", "g", "b"}, {"red", "green", "blue"}, {"R", "G", "B"}, {"Red", "Green", "Blue"}};
+  MessageChannel colors{Status::missing_colors, {}, {}};
+  const bool big = static_cast<bool>(message.is_bigendian);
+  for (const auto& name : words) {
+    const bool is_rgb = &name == &words[0];
+    MessageChannel word =
+        channel_of(message, &name, 1,
+                   {is_rgb ? accept_packed_or_bytes : accept_packed, Status::missing_colors, Status::missing_colors});
+    const bool is_packed = word.type[0] != field_uint8;
+    const std::size_t places[3] = {is_packed ? (big ? 1u : 2u) : 0u,
+                                   is_packed && !big ? 1u
+                                   : is_packed       ? 2u
+                                                     : 1u,
+                                   is_packed ? (big ? 3u : 0u) : 2u};
+    for (std::size_t k = 3; k-- > 0;) word.offset[k] = word.offset[0] + places[k];
+    colors = better(colors, word);
+  }
+  for (const auto& names : bytes) {
+    colors =
+        better(colors, channel_of(message, names, 3, {accept_byte, Status::missing_colors, Status::unread_channel}));
+  }
+  return colors;
+}
+
+/// Where the points lie in a message's data.
+struct MessageRows {
+  Status status;  ///< ok: all points follow each other by `step`; padded_rows: rows by `row_bytes`; else why not
+  std::size_t width;
+  std::size_t height;
+  std::size_t step;
+  std::size_t row_bytes;
+};
+
+/// Data that is as long as all points tells the truth, whatever row_step says. No product leaves 64 bits: there are
+/// less than 2^32 points, hence rows and columns together, and steps are 2^32 at most. What fits the data fits
+/// std::size_t.
+template <class Message>
+[[nodiscard]] MessageRows rows_in(const Message& message) noexcept {
+  const std::uint64_t width = message_number(message.width);
+  const std::uint64_t height = message_number(message.height);
+  const std::uint64_t step = message_number(message.point_step);
+  const std::uint64_t size = message.data.size();
+  const auto refused = [](Status status) { return MessageRows{status, 0, 0, 0, 0}; };
+  if (width == 0 || height == 0) return refused(Status::empty_cloud);
+  if (step == 0) return refused(Status::no_point_step);
+  if (width > 0xFFFFFFFFu / height) return refused(Status::too_many_points);
+  const std::uint64_t row = width * step;
+  if (size < row * height) return refused(Status::short_data);
+  const std::uint64_t said = height > 1 ? message_number(message.row_step) : row;
+  const bool dense = said == row || size == row * height;
+  if (!dense && said < row) return refused(Status::short_rows);
+  if (!dense && size < said * (height - 1) + row) return refused(Status::short_data);
+  return {dense ? Status::ok : Status::padded_rows, static_cast<std::size_t>(width), static_cast<std::size_t>(height),
+          static_cast<std::size_t>(step), static_cast<std::size_t>(dense ? row : said)};
+}
+
+[[nodiscard]] inline bool is_little_endian() noexcept { return __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__; }
+
+/// All of it.
+struct MessageParts {
+  Status status;  ///< ok: copy_point_cloud2() can read the points, if not view_point_cloud2()
+  bool has_other_order;
+  MessageRows rows;
+  MessageChannel points;
+  MessageChannel colors;
+  MessageChannel normals;
+  MessageChannel intensities;
+};
+
+template <class Message>
+[[nodiscard]] MessageParts parts_of(const Message& message) noexcept {
+  MessageParts parts{Status::ok,
+                     static_cast<bool>(message.is_bigendian) == is_little_endian(),
+                     rows_in(message),
+                     coordinates_of(message),
+                     colors_in(message),
+                     normals_in(message),
+                     intensities_in(message)};
+  const Status of_rows = parts.rows.status;
+  const auto refuse = [&](Status status) {
+    if (parts.status == Status::ok) parts.status = status;
+  };
+  if (parts.points.status == Status::no_coordinates) refuse(Status::no_coordinates);
+  if (of_rows == Status::empty_cloud || of_rows == Status::no_point_step) refuse(of_rows);
+  if (severity(parts.points.status) > severity(Status::needs_conversion)) refuse(parts.points.status);
+  for (const MessageChannel* channel : {&parts.colors, &parts.normals, &parts.intensities}) {
+    if (severity(channel->status) >= damaged_channel) refuse(channel->status);
+  }
+  if (of_rows != Status::padded_rows) refuse(of_rows);
+  return parts;
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+#endif  // SHORTSHOT_CLOUD_POINT_CLOUD2_HPP
 
 namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// What a message has, and who reads it. Each is ok (view_point_cloud2() reads it, and so does copy_point_cloud2()),
+/// needs_conversion (copy_point_cloud2() alone), or why nobody does: no_coordinates, missing_colors, missing_normals,
+/// missing_intensities (there is none), bad_field, unread_channel (a type or a number of elements that is not read, or
+/// a part of it is missing), field_outside, empty_field.
+struct PointCloud2Channels {
+  Status coordinates;
+  Status colors;
+  Status normals;
+  Status intensities;
+};
+
+}  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
 
-/// View of a message with members data (data(), size()), fields (name, offset, datatype), point_step, row_step, width,
-/// height and is_bigendian. Fields x, y, z must be FLOAT32; color is a field `rgb` or `rgba`, a FLOAT32 or UINT32 with
-/// 0xAARRGGBB packed into it; normals are FLOAT32 fields normal_x, normal_y, normal_z; an intensity is a FLOAT32,
-/// UINT8 or UINT16. The view borrows the message's bytes.
+/// What a message has; only its fields, point_step and is_bigendian are looked at. No allocation; reentrant.
+template <class Message>
+[[nodiscard]] PointCloud2Channels point_cloud2_channels(const Message& message) noexcept {
+  return {detail::coordinates_of(message).status, detail::colors_in(message).status, detail::normals_in(message).status,
+          detail::intensities_in(message).status};
+}
+
+/// View of a message with members data (data(), size()), fields (name, offset, datatype and, if it has one, count),
+/// point_step, row_step, width, height and is_bigendian. The view borrows the message's bytes, and is organized as the
+/// message.
 ///
-/// Statuses (and an empty view): empty_cloud (no point), no_coordinates, field_outside, other_byte_order, padded_rows,
-/// short_data. Colors, normals or intensities that cannot be read are absent. No allocation.
+/// Read are fields x, y, z (or X, Y, Z) of FLOAT32; colors `rgb` or `rgba`, 0xAARRGGBB packed into a FLOAT32, UINT32 or
+/// INT32, `rgb` of three UINT8 (red first), or UINT8 fields r g b, red green blue, R G B, Red Green Blue; normals
+/// normal_x, normal_y, normal_z or nx, ny, nz of FLOAT32; an intensity of FLOAT32, UINT8 or UINT16. A row_step that is
+/// wrong does no harm where data.size() is width * height * point_step.
+///
+/// Statuses: unread_channel: the message has colors, normals or intensities that are not read in place: the view has
+/// the rest, and point_cloud2_channels() says which. All others leave an empty view: no_coordinates, empty_cloud (no
+/// point), no_point_step, bad_field, empty_field, field_outside (a field of any of these names), too_many_points,
+/// short_data, short_rows; and those that copy_point_cloud2() reads: other_byte_order, needs_conversion (coordinates),
+/// padded_rows. The first one that applies. No allocation; reentrant.
 template <class Message>
 [[nodiscard]] Status view_point_cloud2(const Message& message, CloudView& view) noexcept {
   view = CloudView{};
-  const std::int64_t x = detail::offset_of(message, "x", false);
-  const std::int64_t y = detail::offset_of(message, "y", false);
-  const std::int64_t z = detail::offset_of(message, "z", false);
-  if (x == detail::no_field || y == detail::no_field || z == detail::no_field) return Status::no_coordinates;
-  if (x < 0 || y < 0 || z < 0) return Status::field_outside;
-  if (static_cast<bool>(message.is_bigendian) == detail::is_little_endian()) return Status::other_byte_order;
-
-  const auto step = static_cast<std::size_t>(message.point_step);
-  const auto width = static_cast<std::size_t>(message.width);
-  const auto height = static_cast<std::size_t>(message.height);
-  if (height > 1 && static_cast<std::uint64_t>(message.row_step) != static_cast<std::uint64_t>(width) * step) {
-    return Status::padded_rows;
-  }
-  if (width == 0 || height == 0) return Status::empty_cloud;
-  if (message.data.size() / step / width < height) return Status::short_data;
+  const detail::MessageParts parts = detail::parts_of(message);
+  if (parts.status != Status::ok) return parts.status;
+  if (parts.has_other_order) return Status::other_byte_order;
+  if (parts.points.status != Status::ok) return parts.points.status;
+  if (parts.rows.status != Status::ok) return parts.rows.status;
 
   const auto* data = reinterpret_cast<const unsigned char*>(message.data.data());
-  view.points = {data + x, data + y, data + z, step};
-  view.size = width * height;
-  view.width = width;
-  view.height = height;
-
-  std::int64_t color = detail::offset_of(message, "rgb", true);
-  if (color < 0) color = detail::offset_of(message, "rgba", true);
-  if (color >= 0) {
-    const unsigned char* packed = data + color;
-    const bool little = detail::is_little_endian();
-    view.colors = {packed + (little ? 2 : 1), packed + (little ? 1 : 2), packed + (little ? 0 : 3), step};
+  const std::size_t step = parts.rows.step;
+  const auto floats = [=](const detail::MessageChannel& channel) -> Float3Channel {
+    return {data + channel.offset[0], data + channel.offset[1], data + channel.offset[2], step};
+  };
+  view.size = parts.rows.width * parts.rows.height;
+  view.width = parts.rows.width;
+  view.height = parts.rows.height;
+  view.points = floats(parts.points);
+  bool all_read = true;
+  const auto is_read = [&](const detail::MessageChannel& channel) {
+    all_read =
+        all_read && (channel.status == Status::ok || detail::severity(channel.status) == detail::missing_channel);
+    return channel.status == Status::ok;
+  };
+  if (is_read(parts.colors)) {
+    const std::size_t(&rgb)[3] = parts.colors.offset;
+    view.colors = {data + rgb[0], data + rgb[1], data + rgb[2], step};
   }
-  view.intensities = detail::intensities_of(message, data);
-  const std::int64_t normal_x = detail::offset_of(message, "normal_x", false);
-  const std::int64_t normal_y = detail::offset_of(message, "normal_y", false);
-  const std::int64_t normal_z = detail::offset_of(message, "normal_z", false);
-  if (normal_x >= 0 && normal_y >= 0 && normal_z >= 0) {
-    view.normals = {data + normal_x, data + normal_y, data + normal_z, step};
+  if (is_read(parts.normals)) view.normals = floats(parts.normals);
+  if (is_read(parts.intensities)) {
+    const int type = parts.intensities.type[0];
+    view.intensities = {data + parts.intensities.offset[0], step,
+                        type == detail::field_float32  ? ScalarType::float32
+                        : type == detail::field_uint16 ? ScalarType::uint16
+                                                       : ScalarType::uint8};
   }
-  return Status::ok;
+  return all_read ? Status::ok : Status::unread_channel;
 }
 
 /// A message that dies at the end of the statement cannot be viewed.
@@ -9732,6 +9983,154 @@ template <class D>
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_BATCH_DESCRIBE_CLOUD_HPP
+
+// shortshot/batch/copy_point_cloud2.hpp: copies of sensor_msgs/PointCloud2-shaped messages that cannot be viewed as
+// they are: padded rows, the other byte order, doubles and integers. Hosted only: allocates.
+#ifndef SHORTSHOT_BATCH_COPY_POINT_CLOUD2_HPP
+#define SHORTSHOT_BATCH_COPY_POINT_CLOUD2_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// A cloud with memory of its own, one after the other: what copy_point_cloud2() copies into. Empty: there is none.
+struct CloudCopy {
+  std::vector<float> xyz;              ///< 3 a point
+  std::vector<std::uint8_t> rgb;       ///< 3 a point
+  std::vector<SurfaceNormal> normals;  ///< 1 a point
+  std::vector<float> intensities;      ///< 1 a point
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+template <class Number>
+[[nodiscard]] Number number_of(const unsigned char (&bytes)[8]) noexcept {
+  Number number{};
+  std::memcpy(&number, bytes, sizeof number);
+  return number;
+}
+
+/// The float nearest to a FLOAT64 of these bits, the even one of two; NaN for what is no finite float. In integers: a
+/// program that traps floating-point exceptions sees none.
+[[nodiscard]] inline float narrowed(std::uint64_t bits) noexcept {
+  constexpr std::uint32_t smallest = 1023 - 126;  // exponent of floats with all their digits
+  constexpr std::uint32_t largest = 1023 + 127;
+  const auto sign = static_cast<std::uint32_t>(bits >> 63 << 31);
+  const auto exponent = static_cast<std::uint32_t>(bits >> 52 & 0x7FFu);
+  if (exponent > largest) return std::numeric_limits<float>::quiet_NaN();
+  const std::uint32_t shift = 29 + (exponent < smallest ? smallest - exponent : 0);
+  if (shift > 54) return math::float_of(sign);  // less than half of the smallest float
+  const std::uint64_t digits = (bits & 0xFFFFFFFFFFFFFu) | std::uint64_t{1} << 52;
+  const std::uint64_t half = std::uint64_t{1} << (shift - 1);
+  const std::uint64_t rest = digits & (2 * half - 1);
+  auto rounded = static_cast<std::uint32_t>(digits >> shift);
+  if (rest > half || (rest == half && (rounded & 1u) != 0)) ++rounded;
+  const std::uint32_t magnitude = rounded + (exponent < smallest ? 0 : (exponent - smallest) << 23);
+  return magnitude < 0x7F800000u ? math::float_of(sign | magnitude) : std::numeric_limits<float>::quiet_NaN();
+}
+
+/// The number at a place, of a type that there is.
+[[nodiscard]] inline float field_at(const unsigned char* at, int type, bool is_swapped) noexcept {
+  const auto size = static_cast<std::size_t>(size_of_type(static_cast<std::uint64_t>(type)));
+  unsigned char bytes[8] = {};
+  for (std::size_t k = 0; k < size; ++k) bytes[k] = at[is_swapped ? size - 1 - k : k];
+  switch (type) {
+    case field_int8: return static_cast<float>(number_of<std::int8_t>(bytes));
+    case field_uint8: return static_cast<float>(number_of<std::uint8_t>(bytes));
+    case field_int16: return static_cast<float>(number_of<std::int16_t>(bytes));
+    case field_uint16: return static_cast<float>(number_of<std::uint16_t>(bytes));
+    case field_int32: return static_cast<float>(number_of<std::int32_t>(bytes));
+    case field_uint32: return static_cast<float>(number_of<std::uint32_t>(bytes));
+    case field_float64: return narrowed(number_of<std::uint64_t>(bytes));
+    default: return number_of<float>(bytes);
+  }
+}
+
+/// Can a copy be made of it?
+[[nodiscard]] inline bool is_copied(const MessageChannel& channel) noexcept {
+  return channel.status == Status::ok || channel.status == Status::needs_conversion;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// Copies a message as view_point_cloud2() takes it into `storage`, and makes a view of that, organized as the message;
+/// the message may go then. Also reads padded rows, either byte order, coordinates and intensities of any type, and
+/// normals of FLOAT64. Numbers are rounded to the nearest float (move coordinates of a map's size to their middle
+/// before); what is not finite or too large is NaN.
+///
+/// Statuses: unread_channel: the message has colors, normals or intensities that are not read: the view has the rest,
+/// and point_cloud2_channels() says which. All others leave an empty view and empty storage: those of
+/// view_point_cloud2() but for the ones that it leaves to this one, and out_of_memory (more points than a vector has
+/// room for). Allocates the storage (3 to 31 bytes a point, of which 12 for coordinates), and nothing if it was as
+/// large before. May throw std::bad_alloc; the view is empty then. Reentrant.
+template <class Message>
+[[nodiscard]] Status copy_point_cloud2(const Message& message, CloudCopy& storage, CloudView& view) {
+  view = CloudView{};
+  storage.xyz.clear();
+  storage.rgb.clear();
+  storage.normals.clear();
+  storage.intensities.clear();
+  const detail::MessageParts parts = detail::parts_of(message);
+  if (parts.status != Status::ok) return parts.status;
+  const detail::MessageRows& rows = parts.rows;
+  const std::size_t count = rows.width * rows.height;
+  if (count > storage.xyz.max_size() / 3) return Status::out_of_memory;
+
+  const auto* data = reinterpret_cast<const unsigned char*>(message.data.data());
+  const auto for_each_point = [&](auto&& take) {
+    std::size_t i = 0;
+    for (std::size_t row = 0; row < rows.height; ++row) {
+      const unsigned char* const first = data + row * rows.row_bytes;
+      for (std::size_t column = 0; column < rows.width; ++column) take(i++, first + column * rows.step);
+    }
+  };
+  const auto number = [&](const unsigned char* point, const detail::MessageChannel& channel, std::size_t k) {
+    return detail::field_at(point + channel.offset[k], channel.type[k], parts.has_other_order);
+  };
+  storage.xyz.resize(3 * count);
+  for_each_point([&](std::size_t i, const unsigned char* point) {
+    for (std::size_t k = 0; k < 3; ++k) storage.xyz[3 * i + k] = number(point, parts.points, k);
+  });
+  if (detail::is_copied(parts.colors)) {
+    storage.rgb.resize(3 * count);
+    for_each_point([&](std::size_t i, const unsigned char* point) {
+      for (std::size_t k = 0; k < 3; ++k) storage.rgb[3 * i + k] = point[parts.colors.offset[k]];
+    });
+  }
+  if (detail::is_copied(parts.normals)) {
+    storage.normals.resize(count);
+    for_each_point([&](std::size_t i, const unsigned char* point) {
+      const detail::MessageChannel& from = parts.normals;
+      storage.normals[i] = {number(point, from, 0), number(point, from, 1), number(point, from, 2)};
+    });
+  }
+  if (detail::is_copied(parts.intensities)) {
+    storage.intensities.resize(count);
+    for_each_point([&](std::size_t i, const unsigned char* point) {
+      storage.intensities[i] = number(point, parts.intensities, 0);
+    });
+  }
+  const auto memory_of = [](const auto& vector) { return vector.empty() ? nullptr : vector.data(); };
+  view = view_xyz_rgb(storage.xyz.data(), memory_of(storage.rgb), count);
+  view = with_intensities(with_normals(view, memory_of(storage.normals)), memory_of(storage.intensities));
+  view = organized(view, rows.width, rows.height);
+  bool all_read = true;
+  for (const detail::MessageChannel* channel : {&parts.colors, &parts.normals, &parts.intensities}) {
+    all_read = all_read && channel->status != Status::unread_channel;
+  }
+  return all_read ? Status::ok : Status::unread_channel;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_BATCH_COPY_POINT_CLOUD2_HPP
 
 // shortshot/batch/to_pcl.hpp: descriptors as PCL's clouds of signatures, without including PCL. Hosted only.
 //

@@ -8,7 +8,8 @@
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
 
-/// Result of every call that can fail. Whatever is not `ok` comes with a zeroed output, never with NaN.
+/// Result of every call that can fail. Whatever is not `ok` comes with a zeroed output, never with NaN; unread_channel
+/// alone comes with a view of all the rest.
 // (version 14 of it does not know attributes of enumerations)
 // clang-format off
 enum class [[nodiscard]] Status : std::uint8_t {
@@ -41,15 +42,22 @@ enum class [[nodiscard]] Status : std::uint8_t {
   missing_intensities,  ///< the descriptor needs intensities and the cloud, or the key point, has none
   unsure_frame,         ///< left out by keep_best_frames(): others have surer frames
   sizes_differ,         ///< a view's channels have not as many elements as it has points
-  no_coordinates,       ///< a message has no fields x, y and z of floats
-  field_outside,        ///< a message's field x, y or z ends behind its point
-  short_data,           ///< a message has less data than its width, height and step say
-  padded_rows,          ///< a message's rows are not as long as their points
-  other_byte_order,     ///< a message's numbers have the other byte order
+  no_coordinates,       ///< a message has no fields x, y and z
+  field_outside,        ///< a message's field ends behind its point
+  short_data,           ///< a message has less data than its width, height and steps say
+  padded_rows,          ///< a message's rows are longer than their points: copy_point_cloud2()
+  other_byte_order,     ///< a message's numbers have the other byte order: copy_point_cloud2()
+  needs_conversion,     ///< a message's field is no FLOAT32: copy_point_cloud2()
+  unread_channel,       ///< a message has colors, normals or intensities that are not read; the view has the rest
+  bad_field,            ///< a message's field x, y or z is of no type that there is, or several numbers
+  empty_field,          ///< a message's field says that it is no number (count 0)
+  no_point_step,        ///< a message's points are of no byte
+  too_many_points,      ///< a message has 2^32 points or more
+  short_rows,           ///< a message's rows are shorter than their points, and its data is not as long as all points
 };
 // clang-format on
 
-inline constexpr int status_count = static_cast<int>(Status::other_byte_order) + 1;
+inline constexpr int status_count = static_cast<int>(Status::short_rows) + 1;
 
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
@@ -86,11 +94,18 @@ inline namespace SHORTSHOT_CODE {
     case Status::missing_intensities: return "the descriptor needs intensities and there are none";
     case Status::unsure_frame: return "other key points have surer frames";
     case Status::sizes_differ: return "the view's channels have not as many elements as it has points";
-    case Status::no_coordinates: return "the message has no fields x, y and z of FLOAT32";
+    case Status::no_coordinates: return "the message has no fields x, y and z";
     case Status::field_outside: return "a field of the message lies outside of its point";
-    case Status::short_data: return "the message has less data than its width, height and point_step say";
-    case Status::padded_rows: return "the message's row_step is not width * point_step";
-    case Status::other_byte_order: return "the message has the other byte order";
+    case Status::short_data: return "the message has less data than its width, height, point_step and row_step say";
+    case Status::padded_rows: return "the message's rows are padded: copy_point_cloud2() reads them";
+    case Status::other_byte_order: return "the message has the other byte order: copy_point_cloud2() reads it";
+    case Status::needs_conversion: return "a field of the message is not FLOAT32: copy_point_cloud2() reads it";
+    case Status::unread_channel: return "the message's colors, normals or intensities are not of types that are read";
+    case Status::bad_field: return "x, y and z of the message are not one number each";
+    case Status::empty_field: return "a field of the message has count 0";
+    case Status::no_point_step: return "the message's point_step is 0";
+    case Status::too_many_points: return "the message has 2^32 points or more";
+    case Status::short_rows: return "the message's row_step is less than width * point_step";
   }
   return "unknown status";
 }

@@ -164,6 +164,10 @@ int main() {
   shortshot::CloudView view{};
   const Message message{};
   if (shortshot::view_point_cloud2(message, view) == shortshot::Status::ok) rows += describe_all(view);
+  shortshot::CloudCopy copy;
+  const bool is_copied = shortshot::copy_point_cloud2(message, copy, view) == shortshot::Status::ok;
+  if (is_copied && shortshot::point_cloud2_channels(message).colors == shortshot::Status::ok)
+    rows += describe_all(view);
 #if defined(__cpp_exceptions)
   const Eigen::Matrix3Xf matrix = Eigen::Matrix3Xf::Zero(3, 10);
   rows += describe_all(shortshot::view_eigen(matrix));

@@ -63,6 +63,7 @@ Message message(const std::string& color = "rgb", std::uint8_t color_type = type
   return m;
 }
 
+/// Refused, with nothing left of what was in the view, or ok.
 Status view_of(const Message& m) {
   ss::CloudView view = sample().view();  // something that must not survive a refusal
   const Status status = ss::view_point_cloud2(m, view);
@@ -71,10 +72,11 @@ Status view_of(const Message& m) {
   return status;
 }
 
-void check_reads_as_sample(const Message& m, bool colors = true) {
+void check_reads_as_sample(const Message& m, bool colors = true, Status status = Status::ok) {
   const TestCloud cloud = sample();
   ss::CloudView view{};
-  REQUIRE(ss::view_point_cloud2(m, view) == Status::ok);
+  REQUIRE(ss::view_point_cloud2(m, view) == status);
+  REQUIRE(ss::validate(view) == Status::ok);
   REQUIRE(view.size == cloud.size());
   REQUIRE(ss::has_colors(view) == colors);
   CHECK(view.width == m.width);
@@ -107,14 +109,21 @@ TEST_CASE("PointCloud2: an image keeps its width and height") {
 
 TEST_CASE("PointCloud2: a cloud without colors, or with colors of another type, has points only") {
   check_reads_as_sample(message("temperature"), false);
-  check_reads_as_sample(message("rgb", type_float64), false);
+  Message m = message("rgb", type_uint8);
+  check_reads_as_sample(m, false, Status::unread_channel);
+  CHECK(ss::point_cloud2_channels(m).colors == Status::unread_channel);
 }
 
 TEST_CASE("PointCloud2: coordinates of another type, missing ones and fields outside the point are refused") {
   for (const std::size_t field : {1u, 2u, 4u}) {
     Message m = message();
-    m.fields[field].datatype = type_float64;
-    CHECK(view_of(m) == Status::no_coordinates);
+    m.fields[field].datatype = type_uint32;
+    CHECK(view_of(m) == Status::needs_conversion);
+    m.fields[field].datatype = 9;
+    CHECK(view_of(m) == Status::bad_field);
+    m = message();
+    m.fields[field].count = 0;
+    CHECK(view_of(m) == Status::empty_field);
     m = message();
     m.fields[field].name = "w";
     CHECK(view_of(m) == Status::no_coordinates);
@@ -127,10 +136,13 @@ TEST_CASE("PointCloud2: coordinates of another type, missing ones and fields out
   CHECK(view_of(Message{}) == Status::no_coordinates);
 }
 
-TEST_CASE("PointCloud2: colors outside the point are not read") {
+TEST_CASE("PointCloud2: a message whose colors lie outside the point is refused") {
   Message m = message();
-  m.fields[3].offset = 21;
-  check_reads_as_sample(m, false);
+  m.fields[3].offset = 20;
+  CHECK(view_of(m) == Status::field_outside);
+  CHECK(ss::point_cloud2_channels(m).colors == Status::field_outside);
+  m.fields.push_back({"rgba", 12, type_float32, 1});
+  CHECK(view_of(m) == Status::field_outside);
 }
 
 TEST_CASE("PointCloud2: normals are three fields of their own, or none") {
@@ -148,13 +160,15 @@ TEST_CASE("PointCloud2: normals are three fields of their own, or none") {
   }
   check_reads_as_sample(m);
   for (const std::size_t field : {5u, 6u, 7u}) {
+    Message other = m;
     for (const Field& broken : {Field{"normal", 1, type_float32, 1}, Field{m.fields[field].name, 1, type_float64, 1},
-                                Field{m.fields[field].name, 20, type_float32, 1}}) {
-      Message other = m;
+                                Field{m.fields[field].name, 1, type_float32, 2}}) {
       other.fields[field] = broken;
-      REQUIRE(ss::view_point_cloud2(other, view) == Status::ok);
+      REQUIRE(ss::view_point_cloud2(other, view) == Status::unread_channel);
       CHECK_FALSE(ss::has_normals(view));
     }
+    other.fields[field] = {m.fields[field].name, 20, type_float32, 1};
+    CHECK(view_of(other) == Status::field_outside);
   }
 }
 
@@ -186,27 +200,34 @@ TEST_CASE("PointCloud2: intensities are floats, bytes or whole numbers of 16 bit
 }
 
 TEST_CASE("PointCloud2: a cloud without intensities, with ones of another type or outside the point, has none") {
-  const auto has_some = [](const Field& field) {
+  const auto reading = [](const Field& field) {
     Message m = message();
     m.fields[0] = field;
     ss::CloudView view{};
-    REQUIRE(ss::view_point_cloud2(m, view) == Status::ok);
+    const Status status = ss::view_point_cloud2(m, view);
+    if (status == Status::field_outside) return status;
+    const Status expected =
+        ss::has_intensities(view) || field.name != "intensity" ? Status::ok : Status::unread_channel;
+    CHECK(status == expected);
     if (!ss::has_intensities(view)) CHECK_FALSE(ss::keypoint(view, 0).has_intensity);
-    check_reads_as_sample(m);  // the rest of the cloud is as good as ever
-    return ss::has_intensities(view);
+    check_reads_as_sample(m, true, status);  // the rest of the cloud is as good as ever
+    return ss::has_intensities(view) ? Status::ok : ss::point_cloud2_channels(m).intensities;
   };
-  CHECK(has_some({"intensity", 0, type_uint8, 1}));
-  CHECK_FALSE(has_some({"i", 0, type_uint8, 1}));
-  CHECK_FALSE(has_some({"reflectivity", 0, type_uint16, 1}));
-  for (const int type : {0, 1, 3, 5, 6, 8, 9, 255}) {
-    CAPTURE(type);
-    CHECK_FALSE(has_some({"intensity", 0, static_cast<std::uint8_t>(type), 1}));
+  CHECK(reading({"intensity", 0, type_uint8, 1}) == Status::ok);
+  CHECK(reading({"i", 0, type_uint8, 1}) == Status::missing_intensities);
+  CHECK(reading({"reflectivity", 0, type_uint16, 1}) == Status::missing_intensities);
+  CHECK(reading({"intensity", 0, type_uint8, 2}) == Status::unread_channel);
+  for (const int type : {0, 9, 255}) {
+    CHECK(reading({"intensity", 0, static_cast<std::uint8_t>(type), 1}) == Status::unread_channel);
+  }
+  for (const int type : {1, 3, 5, 6, 8}) {
+    CHECK(reading({"intensity", 0, static_cast<std::uint8_t>(type), 1}) == Status::needs_conversion);
   }
   for (const std::uint32_t beyond : {1u, 2u, 4u, 0xFFFFFFFFu - 22u}) {
     CAPTURE(beyond);
-    CHECK_FALSE(has_some({"intensity", 22u + beyond, type_uint8, 1}));
-    CHECK_FALSE(has_some({"intensity", 21u + beyond, type_uint16, 1}));
-    CHECK_FALSE(has_some({"intensity", 19u + beyond, type_float32, 1}));
+    CHECK(reading({"intensity", 22u + beyond, type_uint8, 1}) == Status::field_outside);
+    CHECK(reading({"intensity", 21u + beyond, type_uint16, 1}) == Status::field_outside);
+    CHECK(reading({"intensity", 19u + beyond, type_float32, 1}) == Status::field_outside);
   }
 }
 
@@ -215,7 +236,7 @@ TEST_CASE("PointCloud2: a step of zero and steps shorter than the fields are ref
     Message m = message();
     m.point_step = step;
     m.row_step = step * m.width;
-    CHECK(view_of(m) == Status::field_outside);
+    CHECK(view_of(m) == (step == 0 ? Status::no_point_step : Status::field_outside));
   }
 }
 
@@ -229,9 +250,11 @@ TEST_CASE("PointCloud2: data one byte short, or sizes whose product overflows, a
   m.width = 0xFFFFFFFFu;
   CHECK(view_of(m) == Status::short_data);
   m.height = 0xFFFFFFFFu;
-  CHECK(view_of(m) == Status::padded_rows);
+  CHECK(view_of(m) == Status::too_many_points);
   m.row_step = 0xFFFFFFFFu;
-  CHECK((view_of(m) == Status::padded_rows || view_of(m) == Status::short_data));
+  CHECK(view_of(m) == Status::too_many_points);
+  m.width = m.height = 0x10000u;  // a product of 2^32
+  CHECK(view_of(m) == Status::too_many_points);
 }
 
 TEST_CASE("PointCloud2: padded rows are refused, padding after the only row is not") {
