@@ -123,7 +123,7 @@ void add_claim(const std::vector<MemberResult>& members, const std::string& text
   }
   if (differences.empty()) return;
   claims.push_back({text, is_loss ? "instance accuracy, loss" : "instance accuracy, gain",
-                    over_objects(mean(differences)), at_least, reason});
+                    over_objects(mean(differences)), at_least, reason, !is_loss});
 }
 
 void add_claims(const std::vector<MemberResult>& members, const std::string& data, std::vector<Claim>& claims) {

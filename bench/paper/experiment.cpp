@@ -9,6 +9,21 @@ void add_unit(Experiment& experiment, campaign::Unit unit) {
   experiment.units.push_back(std::move(unit));
 }
 
+void say_unused(const std::vector<std::string>& folders, const std::string& looked_for) {
+  if (folders.empty()) return;
+  std::string names;
+  for (const std::string& folder : folders) names += (names.empty() ? "" : ", ") + folder_name(folder);
+  std::fprintf(stderr, "not used: %s (without %s)\n", names.c_str(), looked_for.c_str());
+}
+
+ViewSettings with_options(ViewSettings settings, const PaperOptions& options) {
+  settings.radius = options.radius_m.value_or(settings.radius);
+  settings.leaf = options.leaf_m.value_or(settings.leaf);
+  settings.normal_radius = options.normal_radius_m.value_or(settings.normal_radius);
+  settings.seed = options.seed;
+  return settings;
+}
+
 nlohmann::ordered_json to_json(const ViewSettings& settings) {
   return {{"voxel_m", settings.voxel},
           {"radius_m", settings.radius},

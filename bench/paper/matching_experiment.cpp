@@ -4,7 +4,6 @@
 
 #include "paper/datasets/pair_sets.hpp"
 #include "paper/matching.hpp"
-#include "tools/io/folder_name.hpp"
 
 namespace shortshot_bench::paper {
 namespace {
@@ -28,9 +27,9 @@ nlohmann::ordered_json to_json(const MatchingSettings& settings) {
 
 void add_set(Experiment& experiment, const std::string& folder, const datasets::PairSet& set,
              const PaperOptions& options) {
-  const std::string name = folder_name(folder) + " " + set.name;
+  const std::string name = folder + " " + set.name;
   MatchingSettings settings = matching_settings(set.name);
-  settings.source.seed = settings.target.seed = options.seed;
+  settings.source = settings.target = with_options(settings.source, options);
   settings.all_of_target = options.all_of_target;
   if (options.tolerance_m > 0.0f) settings.correct_distance = settings.inlier_distance = options.tolerance_m;
   auto pairs = nlohmann::ordered_json::array();
@@ -55,10 +54,13 @@ Experiment matching_experiment(const PaperOptions& options) {
   experiment.parameters = {{"experiment", "matching"},
                            {"seed", options.seed},
                            {"quick", options.quick},
+                           {"meters_in_a_unit", options.scale},
                            {"descriptors", to_json(configurations_named(options.descriptors))}};
   const auto open = [](const std::string& folder) { return datasets::open_pair_sets(folder); };
-  for (const auto& [folder, sets] : open_folders(options.data, open, datasets::looked_for_pairs)) {
-    for (const datasets::PairSet& set : sets) add_set(experiment, folder, set, options);
+  for (const auto& found : open_folders(options.data, open, datasets::looked_for_pairs)) {
+    for (const datasets::PairSet& set : found.sets) {
+      add_set(experiment, found.name, datasets::scaled(set, options.scale), options);
+    }
   }
   return experiment;
 }

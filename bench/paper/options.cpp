@@ -18,6 +18,15 @@ CLI::App* add_experiment(CLI::App& app, const std::string& name, const std::stri
   command->add_option("--threads", options.threads, "0: as many as there are cores")->capture_default_str();
   command->add_option("--shard", shard, "k/n: do the k-th of n shares of the work only; then merge the folders")
       ->check(campaign::refusal_of_shard);
+  command->add_option("--radius", options.radius_m, "meters, of supports and frames (the protocol's)")
+      ->check(finite_and_positive);
+  command->add_option("--leaf", options.leaf_m, "meters: one key point in each voxel of this size (the protocol's)")
+      ->check(finite_and_positive);
+  command->add_option("--normal-radius", options.normal_radius_m, "meters, of SHOT's normals (the protocol's)")
+      ->check(finite_and_positive);
+  command->add_option("--scale", options.scale, "meters in a unit of clouds, motions and meshes: 0.001 for millimeters")
+      ->check(finite_and_positive)
+      ->capture_default_str();
   command->add_flag("--quick", options.quick, "a small part of the data, to see that all works");
   command->add_flag("--check", options.check, "exit 1 if a figure is outside of the bands in bench/paper/bands.json");
   return command;
@@ -48,6 +57,9 @@ bool parse_options(int argc, const char* const* argv, PaperOptions& options, int
       ->check(finite_and_positive);
   matching->add_flag("--all-of-target", options.all_of_target,
                      "--keep-frames leaves out key points of the source only");
+  recognition->add_option("--up", options.up, "the axis of meshes that points up")
+      ->check(CLI::IsMember({"x", "y", "z"}))
+      ->capture_default_str();
   CLI::App* const merge = app.add_subcommand("merge", "bring the results of shards together, and report on them");
   merge->add_option("FOLDER", options.data, "folders of results")->required();
   merge->add_option("--out", options.out, "folder of all results")->required();

@@ -5,8 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "tools/io/input_error.hpp"
-
 namespace shortshot_bench::paper {
 namespace {
 
@@ -75,6 +73,17 @@ std::vector<RecognitionTask> tasks_of(const datasets::ViewSet& set) {
     v.is_test = v.is_test && learnt.count({v.label.object_class, v.label.instance}) != 0;
   }
   return {task, second};
+}
+
+bool can_be_tested(const std::vector<RecognitionTask>& tasks, std::string& looked_for) {
+  std::size_t tests = 0;
+  for (const RecognitionTask& task : tasks) {
+    for (const Fold& fold : folds_of(task)) tests += fold.training.empty() ? 0 : fold.test.size();
+  }
+  const std::string why = " (there are " + std::to_string(tasks.front().views.size()) + " views of the set '" +
+                          tasks.front().name + "', but not both: some to train and some to test)";
+  if (tests == 0 && looked_for.find(why) == std::string::npos) looked_for += why;
+  return tests > 0;
 }
 
 RecognitionTask task_of(const datasets::VirtualViewSet& set, const std::string& name) {

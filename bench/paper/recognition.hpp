@@ -45,6 +45,9 @@ struct RecognitionTask {
 /// split, in which instances that occur in one part only are not tested.
 std::vector<RecognitionTask> tasks_of(const datasets::ViewSet& set);
 
+/// Has one of a set's tasks views to test and views to train? If not, what is wrong is added to `looked_for`.
+bool can_be_tested(const std::vector<RecognitionTask>& tasks, std::string& looked_for);
+
 /// Virtual views: lower and higher ones train, those between them test.
 RecognitionTask task_of(const datasets::VirtualViewSet& set, const std::string& name);
 

@@ -1,7 +1,6 @@
 #include "paper/recognition_experiment.hpp"
 
 #include "paper/recognition.hpp"
-#include "tools/io/folder_name.hpp"
 
 namespace shortshot_bench::paper {
 namespace {
@@ -15,22 +14,31 @@ struct SharedTask {
   std::uint32_t seed;
 };
 
-/// Nothing for a folder without views or meshes.
-std::vector<SharedTask> tasks_in(const std::string& folder, const PaperOptions& options, std::uint32_t seeds) {
+ViewSettings settings_of(const PaperOptions& options) { return with_options({}, options); }
+
+/// Nothing for a folder without views or meshes; views that are of no use are added to `looked_for`.
+std::vector<SharedTask> tasks_in(const std::string& folder, const PaperOptions& options, std::uint32_t seeds,
+                                 std::string& looked_for) {
   std::vector<SharedTask> tasks;
   for (std::uint32_t seed = options.seed; seed < options.seed + seeds && datasets::holds_meshes(folder); ++seed) {
     datasets::VirtualViewOptions view_options;
     view_options.seed = seed;
-    RecognitionTask task =
-        task_of(datasets::open_virtual_views(folder, view_options), folder_name(folder) + " virtual views");
+    view_options.scale = options.scale;
+    view_options.up = options.up;
+    RecognitionTask task = task_of(datasets::open_virtual_views(folder, view_options), "virtual views");
     if (options.quick) task = every_nth(task, 3);  // a ninth of the work
-    tasks.push_back({task, std::make_shared<Views>(task, ViewSettings{}), seed});
+    tasks.push_back({task, std::make_shared<Views>(task, settings_of(options)), seed});
   }
   for (const datasets::ViewSet& set : datasets::open_view_sets(folder)) {
-    const std::vector<RecognitionTask> all = tasks_of(set);
-    const auto views = std::make_shared<Views>(all.front(), ViewSettings{});
-    for (RecognitionTask task : all) {
-      task.name = folder_name(folder) + " " + task.name;
+    std::vector<RecognitionTask> all = tasks_of(set);
+    for (RecognitionTask& task : all) {
+      task.load = [load = task.load, meters = options.scale](std::size_t i) {
+        return datasets::scaled(load(i), meters);
+      };
+    }
+    if (!can_be_tested(all, looked_for)) continue;
+    const auto views = std::make_shared<Views>(all.front(), settings_of(options));
+    for (const RecognitionTask& task : all) {
       if (task.tests() > 0) tasks.push_back({task, views, options.seed});
     }
   }
@@ -38,9 +46,14 @@ std::vector<SharedTask> tasks_in(const std::string& folder, const PaperOptions& 
 }
 
 auto all_tasks(const PaperOptions& options, std::uint32_t seeds) {
-  return open_folders(
-      options.data, [&](const std::string& folder) { return tasks_in(folder, options, seeds); },
-      std::string(datasets::looked_for_views) + ", or " + datasets::looked_for_meshes);
+  std::string looked_for = std::string(datasets::looked_for_views) + ", or " + datasets::looked_for_meshes;
+  auto all = open_folders(
+      options.data, [&](const std::string& folder) { return tasks_in(folder, options, seeds, looked_for); },
+      looked_for);
+  for (auto& found : all) {
+    for (SharedTask& shared : found.sets) shared.task.name = found.name + " " + shared.task.name;
+  }
+  return all;
 }
 
 void add_task(Experiment& experiment, const SharedTask& shared, const std::vector<Configuration>& configurations,
@@ -67,7 +80,9 @@ nlohmann::ordered_json common_parameters(const PaperOptions& options,
           {"seed", options.seed},
           {"quick", options.quick},
           {"descriptors", to_json(configurations)},
-          {"clouds", to_json(ViewSettings{})},
+          {"clouds", to_json(settings_of(options))},
+          {"meters_in_a_unit", options.scale},
+          {"up", std::string(1, options.up)},
           {"bandwidth_m", RecognitionSettings{}.bandwidth}};
 }
 
@@ -76,8 +91,8 @@ nlohmann::ordered_json common_parameters(const PaperOptions& options,
 Experiment recognition_experiment(const PaperOptions& options) {
   const std::vector<Configuration> configurations = configurations_named(options.descriptors);
   Experiment experiment{common_parameters(options, configurations), {}};
-  for (const auto& [folder, tasks] : all_tasks(options, options.quick ? 1 : virtual_seeds)) {
-    for (const SharedTask& shared : tasks) {
+  for (const auto& found : all_tasks(options, options.quick ? 1 : virtual_seeds)) {
+    for (const SharedTask& shared : found.sets) {
       if (options.quick && shared.task.leave_one_sequence_out) continue;  // takes longest
       add_task(experiment, shared, configurations, {});
     }
@@ -97,8 +112,8 @@ Experiment ablation_experiment(const PaperOptions& options, const std::vector<Fa
   experiment.parameters["sizes"] = sizes;
   RecognitionSettings settings;
   settings.nearest_votes = false;
-  for (const auto& [folder, tasks] : all_tasks(options, 1)) {
-    add_task(experiment, options.quick ? tasks.back() : tasks.front(), configurations, settings);
+  for (const auto& found : all_tasks(options, 1)) {
+    add_task(experiment, options.quick ? found.sets.back() : found.sets.front(), configurations, settings);
   }
   return experiment;
 }

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "paper/datasets/virtual_views.hpp"
-#include "tools/io/folder_name.hpp"
 #include "tradeoff/paint.hpp"
 #include "tradeoff/pairs.hpp"
 #include "tradeoff/views.hpp"
@@ -85,10 +84,11 @@ struct Sets {
 };
 
 /// One or, if there is nothing to be done, none. The quick form does not look at meshes, nor at splits that take long.
-std::vector<Sets> sets_in(const std::string& folder, bool quick) {
+std::vector<Sets> sets_in(const std::string& folder, bool quick, std::string& looked_for) {
   Sets sets{datasets::open_pair_sets(folder), {}, !quick && datasets::holds_meshes(folder)};
   for (datasets::ViewSet& set : datasets::open_view_sets(folder)) {
     const std::vector<paper::RecognitionTask> tasks = paper::tasks_of(set);
+    if (!paper::can_be_tested(tasks, looked_for)) continue;
     const bool any = std::any_of(tasks.begin(), tasks.end(), [&](const paper::RecognitionTask& task) {
       return task.tests() > 0 && !(quick && task.leave_one_sequence_out);
     });
@@ -108,10 +108,10 @@ class Builder {
     experiment_.parameters = {{"experiment", "tradeoff"}, {"quick", options.quick}, {"entries", entries()}};
   }
 
-  void add(const std::string& folder, const Sets& sets) {
-    for (const datasets::PairSet& set : sets.pairs) add_pairs(folder, set);
-    for (const datasets::ViewSet& set : sets.views) add_views(folder, set);
-    if (sets.has_meshes) add_meshes(folder);
+  void add(const std::string& folder, const std::string& name, const Sets& sets) {
+    for (const datasets::PairSet& set : sets.pairs) add_pairs(name, set);
+    for (const datasets::ViewSet& set : sets.views) add_views(name, set);
+    if (sets.has_meshes) add_meshes(folder, name + " virtual views");
   }
   paper::Experiment finish() && {
     experiment_.parameters["measures"] = nlohmann::ordered_json(measures_);
@@ -141,7 +141,7 @@ class Builder {
     for (const NamedLook& named : looks_at(set)) {
       const bool is_second_look = named.named_only || (set.name != "frames" && named.look.view.radius > 0.06f);
       if (options_.quick && is_second_look) continue;
-      const std::string measure = folder_name(folder) + " " + set.name + ", " + named.name;
+      const std::string measure = folder + " " + set.name + ", " + named.name;
       const std::string rest = sibling_at_rest(measure);
       const char* const baseline = set.has_color ? named.baseline : shape_baseline;
       add_measure(measure, named.figure, baseline, named.figure == Figure::match_rate, rest);
@@ -168,7 +168,7 @@ class Builder {
   void add_frames(const datasets::PairSet& set, const NamedLook& named, const std::string& measure,
                   const std::vector<std::size_t>& chosen) {
     const auto views = std::make_shared<paper::Views>(set.clouds, set.load_cloud, named.look.view);
-    for (const Candidate& candidate : named.named_only ? *named_ : *all_) {
+    for (const Candidate& candidate : named.look.reciprocal ? headline() : *all_) {
       add_unit(experiment_, {measure + "/" + candidate.configuration.name,
                              [set, views, look = named.look, measure, chosen, candidate] {
                                return to_json(match_pairs(set, chosen, *views, look, measure, candidate));
@@ -188,12 +188,12 @@ class Builder {
     const auto views = std::make_shared<paper::Views>(tasks.front(), settings);
     for (const paper::RecognitionTask& task : tasks) {
       if (task.tests() == 0 || (options_.quick && task.leave_one_sequence_out)) continue;
-      const std::string measure = folder_name(folder) + " " + task.name + ", R " + millimeters(settings.radius);
+      const std::string measure = folder + " " + task.name + ", R " + millimeters(settings.radius);
       add_measure(measure, Figure::right_instance, color_baseline, true, sibling_at_rest(measure));
       add_task(task, views, measure, *all_, count_right_instances);
     }
     add_painted_views(folder, tasks.back(), settings);
-    add_hough(tasks.front(), folder_name(folder) + " " + tasks.front().name);
+    add_hough(tasks.front(), folder + " " + tasks.front().name);
   }
 
   /// All objects in one dark color, every second view under a lamp that is somewhere else.
@@ -203,13 +203,12 @@ class Builder {
       const shortshot::Point& lamp = i % 2 == 0 ? lamp_at_right : lamp_at_left;
       return painted(load(i), {dark, lamp, static_cast<std::uint32_t>(i)});
     };
-    const std::string measure = folder_name(folder) + " " + task.name + ", painted dark";
+    const std::string measure = folder + " " + task.name + ", painted dark";
     add_measure(measure, Figure::right_instance, plain_baseline, false, "");
     add_task(task, std::make_shared<paper::Views>(task, settings), measure, *named_, count_right_instances);
   }
 
-  void add_meshes(const std::string& folder) {
-    const std::string name = folder_name(folder) + " virtual views";
+  void add_meshes(const std::string& folder, const std::string& name) {
     add_hough(paper::task_of(datasets::open_virtual_views(folder, {}), name), name);
   }
 
@@ -258,11 +257,11 @@ class Builder {
 
 paper::Experiment tradeoff_experiment(const TradeoffOptions& options) {
   Builder builder(options, std::make_shared<const std::vector<Candidate>>(candidates(options.quick)));
-  const auto open = [&](const std::string& folder) { return sets_in(folder, options.quick); };
-  const std::string looked_for = std::string(datasets::looked_for_pairs) + ", " + datasets::looked_for_views + ", or " +
-                                 datasets::looked_for_meshes;
-  for (const auto& [folder, all] : paper::open_folders(options.data, open, looked_for)) {
-    for (const Sets& sets : all) builder.add(folder, sets);
+  std::string looked_for = std::string(datasets::looked_for_pairs) + ", " + datasets::looked_for_views + ", or " +
+                           datasets::looked_for_meshes;
+  const auto open = [&](const std::string& folder) { return sets_in(folder, options.quick, looked_for); };
+  for (const auto& found : paper::open_folders(options.data, open, looked_for)) {
+    for (const Sets& sets : found.sets) builder.add(found.folder, found.name, sets);
   }
   return std::move(builder).finish();
 }

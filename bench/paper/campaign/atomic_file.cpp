@@ -11,7 +11,7 @@ namespace shortshot_bench::campaign {
 void make_directory(const std::string& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error) throw InputError::at_byte(directory, 0, "cannot make the folder: " + error.message());
+  if (error) throw InputError::about(directory, "cannot make the folder: " + error.message());
 }
 
 void write_atomically(const std::string& path, std::string_view bytes) {
@@ -21,7 +21,7 @@ void write_atomically(const std::string& path, std::string_view bytes) {
   file.close();
   std::error_code error;
   std::filesystem::rename(unfinished, path, error);
-  if (error) throw InputError::at_byte(path, 0, "cannot write the file: " + error.message());
+  if (error) throw InputError::about(path, "cannot write the file: " + error.message());
 }
 
 }  // namespace shortshot_bench::campaign

@@ -73,7 +73,8 @@ void run_campaign(const std::vector<Unit>& units, const nlohmann::ordered_json& 
       waiting.push_back(&units[i]);
     }
   }
-  Progress shown(progress, done + waiting.size(), done);
+  const unsigned at_work = threads == 0 ? static_cast<unsigned>(tbb::this_task_arena::max_concurrency()) : threads;
+  Progress shown(progress, done + waiting.size(), done, at_work);
   Recorder recorder(journal, shown);
   run_all(waiting, recorder, threads);
 }

@@ -14,7 +14,7 @@ namespace shortshot_bench::campaign {
 FileDescriptor::FileDescriptor(const std::string& path)
     : number_(open(path.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0666)) {
   if (number_ >= 0) return;
-  throw InputError::at_byte(path, 0, "cannot open the file for writing: " + std::generic_category().message(errno));
+  throw InputError::about(path, "cannot open the file for writing: " + std::generic_category().message(errno));
 }
 
 FileDescriptor::~FileDescriptor() {

@@ -31,11 +31,11 @@ FileDescriptor lock_journal(const std::string& directory) {
   FileDescriptor file(path);
   if (flock(file.number(), LOCK_EX | LOCK_NB) == 0) return file;
   if (errno != EWOULDBLOCK) {
-    throw InputError::at_byte(path, 0, "cannot lock the file: " + std::generic_category().message(errno));
+    throw InputError::about(path, "cannot lock the file: " + std::generic_category().message(errno));
   }
-  throw InputError::at_byte(path, 0,
-                            "another process is writing results into this folder: wait for its end, or give each "
-                            "process a folder of its own (--out) and merge them");
+  throw InputError::about(path,
+                          "another process is writing results into this folder: wait for its end, or give each "
+                          "process a folder of its own (--out) and merge them");
 }
 
 std::string read_text(const std::string& path) {
@@ -158,13 +158,13 @@ void merge_journals(const std::vector<std::string>& from, const std::string& int
   std::optional<JournalContent> merged = read_journal(into);
   for (const std::string& directory : from) {
     const std::optional<JournalContent> part = read_journal(directory);
-    if (!part) throw InputError::at_byte(journal_path(directory), 0, "there are no results in this folder");
+    if (!part) throw InputError::about(journal_path(directory), "there are no results in this folder");
     if (!merged) merged.emplace().parameters = part->parameters;
     check_parameters(directory, part->parameters, merged->parameters);
     for (const auto& [key, result] : part->results) {
       if (add(*merged, key, result)) continue;
-      throw InputError::at_byte(journal_path(directory), 0,
-                                "another result for '" + key + "' than in a folder before: " + result.dump());
+      throw InputError::about(journal_path(directory),
+                              "another result for '" + key + "' than in a folder before: " + result.dump());
     }
   }
   if (!merged) return;

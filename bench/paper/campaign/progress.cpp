@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "speed/timing/clock.hpp"
@@ -18,18 +19,23 @@ std::string hours(double seconds) {
 
 }  // namespace
 
-std::string progress_text(std::size_t all, std::size_t done_before, std::size_t done_since, double seconds) {
+std::string progress_text(std::size_t all, std::size_t done_before, std::size_t done_since, double seconds,
+                          unsigned threads) {
   const std::size_t done = done_before + done_since;
-  const double left = seconds * static_cast<double>(all - done) / static_cast<double>(done_since);
-  return std::to_string(done) + "/" + std::to_string(all) + " done, " + hours(seconds) + " elapsed, about " +
-         hours(left) + " left";
+  const std::string text = std::to_string(done) + "/" + std::to_string(all) + " done, " + hours(seconds) + " elapsed";
+  if (done < all && done_since < 3 * static_cast<std::size_t>(threads)) return text;
+  const double at_work = 0.5 * static_cast<double>(std::min<std::size_t>(threads, all - done));
+  const double left =
+      seconds * (static_cast<double>(all - done) - at_work) / (static_cast<double>(done_since) + at_work);
+  return text + ", about " + hours(left) + " left";
 }
 
-Progress::Progress(std::FILE* file, std::size_t all, std::size_t done_before)
+Progress::Progress(std::FILE* file, std::size_t all, std::size_t done_before, unsigned threads)
     : file_(file),
       is_terminal_(file != nullptr && isatty(fileno(file)) != 0),
       all_(all),
       done_before_(done_before),
+      threads_(threads),
       start_seconds_(now_seconds(Clock::wall)) {}
 
 Progress::~Progress() {
@@ -39,7 +45,8 @@ Progress::~Progress() {
 void Progress::finished(const std::string& key) {
   ++done_since_;
   if (file_ == nullptr) return;
-  const std::string text = progress_text(all_, done_before_, done_since_, now_seconds(Clock::wall) - start_seconds_);
+  const std::string text =
+      progress_text(all_, done_before_, done_since_, now_seconds(Clock::wall) - start_seconds_, threads_);
   if (is_terminal_) {
     std::fprintf(file_, "\r%s\x1b[K", text.c_str());  // over the line before, and erases what is left of it
   } else {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <system_error>
 
 #include "tools/io/read_cloud.hpp"
@@ -19,12 +20,29 @@ bool is_folder(const std::string& path) {
 }
 
 void require_file(const std::string& path, const std::string& what) {
-  if (!is_file(path)) throw InputError::at_byte(path, 0, "expected " + what + ", found no file of this name");
+  if (!is_file(path)) throw InputError::about(path, "expected " + what + ", found no file of this name");
+}
+
+void require_files(const std::vector<std::string>& paths, const std::string& what) {
+  std::vector<std::string> missing;
+  std::copy_if(paths.begin(), paths.end(), std::back_inserter(missing),
+               [](const auto& path) { return !is_file(path); });
+  if (missing.empty()) return;
+  const std::string count = std::to_string(missing.size()) + " of " + std::to_string(paths.size());
+  throw InputError::about(missing.front(),
+                          "expected " + what + ", found no file of this name; " + count + " are missing");
+}
+
+RgbdCloud scaled(RgbdCloud cloud, double meters) {
+  const auto factor = static_cast<float>(meters);
+  for (float& value : cloud.xyz) value *= factor;
+  for (float& value : cloud.viewpoint) value *= factor;
+  return cloud;
 }
 
 RgbdCloud read_colored_cloud(const std::string& path) {
   RgbdCloud cloud = read_cloud(path);
-  if (!cloud.has_colors()) throw InputError::at_byte(path, 0, "expected a cloud with colors, found none");
+  if (!cloud.has_colors()) throw InputError::about(path, "expected a cloud with colors, found none");
   return cloud;
 }
 
@@ -40,7 +58,7 @@ std::vector<std::string> folders_in(const std::string& directory) {
 
 InputError not_recognized(const std::string& directory, const std::string& looked_for) {
   const std::string found = is_folder(directory) ? "none of them" : "no folder of this name";
-  return InputError::at_byte(directory, 0, "expected a folder with " + looked_for + ", found " + found);
+  return InputError::about(directory, "expected a folder with " + looked_for + ", found " + found);
 }
 
 }  // namespace shortshot_bench::datasets

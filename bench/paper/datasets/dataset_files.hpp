@@ -16,6 +16,12 @@ bool is_folder(const std::string& path);
 /// Throws InputError unless `path` is a regular file; `what` says what it should have been ("a depth image").
 void require_file(const std::string& path, const std::string& what);
 
+/// The same of many; says how many are missing.
+void require_files(const std::vector<std::string>& paths, const std::string& what);
+
+/// In meters, where a unit of the cloud is `meters` long.
+RgbdCloud scaled(RgbdCloud cloud, double meters);
+
 /// read_cloud(), and InputError for a cloud without colors.
 RgbdCloud read_colored_cloud(const std::string& path);
 

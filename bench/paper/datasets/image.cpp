@@ -23,7 +23,7 @@ struct FreeImage {
 };
 
 InputError broken(const std::string& path, const std::string& what) {
-  return InputError::at_byte(path, 0, "expected " + what + ", found: " + stbi_failure_reason());
+  return InputError::about(path, "expected " + what + ", found: " + stbi_failure_reason());
 }
 
 Header read_header(const std::string& path, const std::string& what) {
@@ -32,7 +32,7 @@ Header read_header(const std::string& path, const std::string& what) {
   Header header;
   if (stbi_info(path.c_str(), &header.width, &header.height, &header.channels) == 0) throw broken(path, what);
   if (header.pixels() > most_pixels) {
-    throw InputError::at_byte(path, 0, "expected at most 2^26 pixels, found " + std::to_string(header.pixels()));
+    throw InputError::about(path, "expected at most 2^26 pixels, found " + std::to_string(header.pixels()));
   }
   return header;
 }
@@ -53,7 +53,7 @@ DepthImage read_depth_image(const std::string& path) {
   const std::string what = "a depth image";
   Header header = read_header(path, what);
   if (header.channels != 1 || stbi_is_16_bit(path.c_str()) == 0) {
-    throw InputError::at_byte(path, 0, "expected a depth image of one channel of 16 bits, found another image");
+    throw InputError::about(path, "expected a depth image of one channel of 16 bits, found another image");
   }
   const std::unique_ptr<stbi_us, FreeImage> pixels(
       stbi_load_16(path.c_str(), &header.width, &header.height, &header.channels, 1));

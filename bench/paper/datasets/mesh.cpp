@@ -25,7 +25,7 @@ tinyobj::ObjReader parse_obj(const std::string& path) {
   config.triangulate = false;
   config.vertex_color = false;
   tinyobj::ObjReader reader;
-  if (!reader.ParseFromFile(path, config)) throw InputError::at_byte(path, 0, on_one_line(reader.Error()));
+  if (!reader.ParseFromFile(path, config)) throw InputError::about(path, on_one_line(reader.Error()));
   return reader;
 }
 
@@ -34,7 +34,7 @@ std::vector<Eigen::Matrix<float, Size, 1>> finite_rows(const std::vector<float>&
   std::vector<Eigen::Matrix<float, Size, 1>> rows;
   for (std::size_t first = 0; first + Size <= values.size(); first += Size) {
     rows.emplace_back(&values[first]);
-    if (!rows.back().allFinite()) throw InputError::at_byte(path, 0, "there are coordinates which are not finite");
+    if (!rows.back().allFinite()) throw InputError::about(path, "there are coordinates which are not finite");
   }
   return rows;
 }
@@ -42,7 +42,7 @@ std::vector<Eigen::Matrix<float, Size, 1>> finite_rows(const std::vector<float>&
 // The parser checks no index. Faces count from 1 in the message.
 std::size_t checked_index(int index, std::size_t count, const char* what, const std::string& path, std::size_t face) {
   if (index < 0 || static_cast<std::size_t>(index) >= count) {
-    throw InputError::at_byte(path, 0, "face " + std::to_string(face) + " has a corner without " + what);
+    throw InputError::about(path, "face " + std::to_string(face) + " has a corner without " + what);
   }
   return static_cast<std::size_t>(index);
 }
@@ -50,7 +50,7 @@ std::size_t checked_index(int index, std::size_t count, const char* what, const 
 void add_triangles(const tinyobj::mesh_t& faces, const std::vector<Eigen::Vector2f>& uvs, const std::string& path,
                    TexturedMesh& mesh) {
   if (faces.indices.size() != 3 * faces.num_face_vertices.size()) {
-    throw InputError::at_byte(path, 0, "there are faces which are not triangles");
+    throw InputError::about(path, "there are faces which are not triangles");
   }
   for (std::size_t first = 0; first < faces.indices.size(); first += 3) {
     const std::size_t face = mesh.triangles.size() + 1;
@@ -73,9 +73,9 @@ std::string texture_name(const tinyobj::ObjReader& reader, const std::string& pa
       const std::string& found =
           material < 0 ? std::string() : reader.GetMaterials()[static_cast<std::size_t>(material)].diffuse_texname;
       if (found.empty()) {
-        throw InputError::at_byte(path, 0, "there are faces without a texture. " + on_one_line(reader.Warning()));
+        throw InputError::about(path, "there are faces without a texture. " + on_one_line(reader.Warning()));
       }
-      if (!name.empty() && found != name) throw InputError::at_byte(path, 0, "the faces have more than one texture");
+      if (!name.empty() && found != name) throw InputError::about(path, "the faces have more than one texture");
       name = found;
     }
   }
@@ -90,7 +90,7 @@ TexturedMesh read_textured_mesh(const std::string& path) {
   mesh.vertices = finite_rows<3>(reader.GetAttrib().vertices, path);
   const auto uvs = finite_rows<2>(reader.GetAttrib().texcoords, path);
   for (const tinyobj::shape_t& shape : reader.GetShapes()) add_triangles(shape.mesh, uvs, path, mesh);
-  if (mesh.triangles.empty()) throw InputError::at_byte(path, 0, "there is no face");
+  if (mesh.triangles.empty()) throw InputError::about(path, "there is no face");
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   mesh.texture = read_color_image((folder / texture_name(reader, path)).string());
   return mesh;

@@ -25,9 +25,21 @@ struct PairEntry {
   RigidMotion truth;
 };
 
+using Files = std::vector<std::string>;
+
+Files itself(const std::string& cloud) { return {cloud}; }
+
 std::string stem(const std::string& file) { return std::filesystem::path(file).stem().string(); }
 
-PairSet make_pair_set(const std::string& name, bool has_color, std::vector<PairEntry> pairs, ReadView read) {
+RigidMotion scaled(RigidMotion motion, double meters) {
+  for (const std::size_t i : {3u, 7u, 11u}) motion[i] *= meters;
+  return motion;
+}
+
+/// `files_of(cloud)`: what must be there.
+template <class FilesOf>
+PairSet make_pair_set(const std::string& name, bool has_color, std::vector<PairEntry> pairs, ReadView read,
+                      const FilesOf& files_of) {
   PairSet set;
   set.name = name;
   set.has_color = has_color;
@@ -46,6 +58,11 @@ PairSet make_pair_set(const std::string& name, bool has_color, std::vector<PairE
     set.groups.push_back(pair.group);
     set.rotation_deg.push_back(rotation_degrees(pair.truth));
   }
+  std::vector<std::string> files;
+  for (const std::string& cloud : clouds) {
+    for (const std::string& file : files_of(cloud)) files.push_back(file);
+  }
+  require_files(files, "a cloud's file");
   set.clouds = clouds.size();
   set.load_cloud = [clouds = std::move(clouds), read](std::size_t i) { return read(clouds.at(i)); };
   set.load = [pairs = std::move(pairs), read = std::move(read)](std::size_t i) {
@@ -63,7 +80,7 @@ PairSet object_scene_pairs(const std::string& directory, const std::string& tabl
                      directory + "/scenes_xyz/" + scene + ".pcd",
                      read_rigid_motion(directory + "/groundtruth/" + truth)});
   }
-  return make_pair_set("object-scene", false, std::move(pairs), read_cloud);
+  return make_pair_set("object-scene", false, std::move(pairs), read_cloud, itself);
 }
 
 PairSet view_pairs(const std::string& directory, const std::string& table) {
@@ -74,7 +91,7 @@ PairSet view_pairs(const std::string& directory, const std::string& table) {
     pairs.push_back({stem(source) + " " + stem(target), stem(source), views + source, views + target,
                      read_rigid_motion(directory + "/view_pairs_gt/" + truth)});
   }
-  return make_pair_set("views", true, std::move(pairs), read_colored_cloud);
+  return make_pair_set("views", true, std::move(pairs), read_colored_cloud, itself);
 }
 
 PairSet frame_pairs(const std::string& directory, const std::string& table, double max_depth) {
@@ -85,8 +102,9 @@ PairSet frame_pairs(const std::string& directory, const std::string& table, doub
     const auto& [a, b] = row.cells;
     pairs.push_back({a + " " + b, a, directory + "/" + a, directory + "/" + b, motion_between(pose(a), pose(b))});
   }
-  return make_pair_set("frames", true, std::move(pairs),
-                       [=](const std::string& frame) { return read_frame(frame, camera, max_depth); });
+  return make_pair_set(
+      "frames", true, std::move(pairs), [=](const std::string& frame) { return read_frame(frame, camera, max_depth); },
+      files_of_frame);
 }
 
 }  // namespace
@@ -102,6 +120,20 @@ std::vector<PairSet> open_pair_sets(const std::string& directory, double max_dep
   open_if_there("view_pairs.csv", [&](const std::string& table) { return view_pairs(directory, table); });
   open_if_there("frame_pairs.csv", [&](const std::string& table) { return frame_pairs(directory, table, max_depth); });
   return sets;
+}
+
+PairSet scaled(PairSet set, double meters) {
+  if (meters == 1.0 || set.name == "frames") return set;
+  for (RigidMotion& truth : set.truths) truth = scaled(truth, meters);
+  set.load = [load = set.load, meters](std::size_t i) {
+    ViewPair pair = load(i);
+    pair.source = scaled(std::move(pair.source), meters);
+    pair.target = scaled(std::move(pair.target), meters);
+    pair.truth = scaled(pair.truth, meters);
+    return pair;
+  };
+  set.load_cloud = [load = set.load_cloud, meters](std::size_t i) { return scaled(load(i), meters); };
+  return set;
 }
 
 std::vector<std::size_t> every_nth_by_rotation(const PairSet& set, std::size_t step) {

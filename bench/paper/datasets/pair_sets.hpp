@@ -40,6 +40,10 @@ struct PairSet {
   std::size_t size() const { return pair_names.size(); }
 };
 
+/// The same set in meters, where a unit of its clouds and motions is `meters` long. Frames are in meters by their
+/// format.
+PairSet scaled(PairSet set, double meters);
+
 /// Every `step`-th pair (from 1 on) in the order of rotation, the smallest first.
 std::vector<std::size_t> every_nth_by_rotation(const PairSet& set, std::size_t step);
 
@@ -47,7 +51,7 @@ std::vector<std::size_t> every_nth_by_rotation(const PairSet& set, std::size_t s
 inline constexpr const char* looked_for_pairs = "object_scene_pairs.csv, view_pairs.csv or frame_pairs.csv";
 
 /// The sets that the folder holds; none if it holds none of `looked_for_pairs`. All motions are read at once, clouds by
-/// load().
+/// load(), but that their files are there is asked at once.
 ///
 /// * object_scene_pairs.csv (scene, object, model, gt): "object-scene", scenes of a Kinect without colors.
 ///   models_color/MODEL, scenes_xyz/SCENE.pcd, groundtruth/GT with scene = T * model. A group is a scene.
@@ -57,7 +61,7 @@ inline constexpr const char* looked_for_pairs = "object_scene_pairs.csv, view_pa
 ///   FRAME.pose.txt (camera to world), camera-intrinsics.txt; see read_frame(). A group is a first frame. Depth beyond
 ///   `max_depth` meters is dropped: the protocol's 3 m, a Kinect's error grows with the square.
 ///
-/// Throws InputError for a table or motion that is missing or broken.
+/// Throws InputError for a table or motion that is missing or broken, and for clouds that are missing.
 std::vector<PairSet> open_pair_sets(const std::string& directory, double max_depth = 3.0);
 
 }  // namespace shortshot_bench::datasets

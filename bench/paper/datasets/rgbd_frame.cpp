@@ -28,21 +28,23 @@ std::string size_text(std::size_t width, std::size_t height) {
 
 Intrinsics read_intrinsics(const std::string& path) {
   const std::vector<double> m = read_matrix(path, 3, 3, "a camera matrix");
-  if (!(m[0] > 0.0 && m[4] > 0.0)) throw InputError::at_byte(path, 0, "expected focal lengths above 0");
+  if (!(m[0] > 0.0 && m[4] > 0.0)) throw InputError::about(path, "expected focal lengths above 0");
   const std::vector<double> expected{m[0], 0.0, m[2], 0.0, m[4], m[5], 0.0, 0.0, 1.0};
-  if (m != expected) throw InputError::at_byte(path, 0, "expected the rows fx 0 cx, 0 fy cy, 0 0 1");
+  if (m != expected) throw InputError::about(path, "expected the rows fx 0 cx, 0 fy cy, 0 0 1");
   return {m[0], m[4], m[2], m[5]};
 }
 
+std::vector<std::string> files_of_frame(const std::string& frame) { return {frame + ".depth.png", color_path(frame)}; }
+
 RgbdCloud read_frame(const std::string& frame, const Intrinsics& camera, double max_depth) {
   constexpr std::array<std::uint16_t, 2> no_measurement{0, 65535};
-  const std::string depth_path = frame + ".depth.png";
+  const std::vector<std::string> files = files_of_frame(frame);
+  const std::string& depth_path = files[0];
   const DepthImage depth = read_depth_image(depth_path);
-  ColorImage color = read_color_image(color_path(frame));
+  ColorImage color = read_color_image(files[1]);
   if (depth.width != color.width || depth.height != color.height) {
-    throw InputError::at_byte(depth_path, 0,
-                              "expected the color image's " + size_text(color.width, color.height) + " pixels, found " +
-                                  size_text(depth.width, depth.height));
+    throw InputError::about(depth_path, "expected the color image's " + size_text(color.width, color.height) +
+                                            " pixels, found " + size_text(depth.width, depth.height));
   }
   RgbdCloud cloud;
   cloud.width = depth.width;

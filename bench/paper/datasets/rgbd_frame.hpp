@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tools/io/rgbd_cloud.hpp"
 
@@ -17,6 +18,9 @@ struct Intrinsics {
 
 /// From a text file with the rows fx 0 cx, 0 fy cy, 0 0 1. Throws InputError for any other matrix.
 Intrinsics read_intrinsics(const std::string& path);
+
+/// The images that read_frame() will read.
+std::vector<std::string> files_of_frame(const std::string& frame);
 
 /// The frame's pixels in camera coordinates (x right, y down, z forward, meters), organized; NaN where the depth is 0
 /// or 65535 (no measurement) or beyond `max_depth` meters. Reads FRAME.depth.png (16 bits, millimeters) and

@@ -25,11 +25,11 @@ RigidMotion read_rigid_motion(const std::string& path) {
   const Eigen::Matrix3d rotation = matrix_of(motion).topLeftCorner<3, 3>();
   const double deviation = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
   if (!(deviation <= tolerance)) {
-    throw InputError::at_byte(path, 0, "expected a rotation R, found R^T R off 1 by " + std::to_string(deviation));
+    throw InputError::about(path, "expected a rotation R, found R^T R off 1 by " + std::to_string(deviation));
   }
-  if (rotation.determinant() < 0.0) throw InputError::at_byte(path, 0, "expected a rotation, found a mirror image");
+  if (rotation.determinant() < 0.0) throw InputError::about(path, "expected a rotation, found a mirror image");
   if (matrix_of(motion).row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) {
-    throw InputError::at_byte(path, 0, "expected 0 0 0 1 as the last row, found another");
+    throw InputError::about(path, "expected 0 0 0 1 as the last row, found another");
   }
   return motion;
 }

@@ -28,7 +28,7 @@ std::vector<std::string> files_below(const std::string& directory) {
       if (entry->is_regular_file()) files.push_back(entry->path().lexically_relative(directory).generic_string());
     }
   } catch (const fs::filesystem_error& error) {
-    throw InputError::at_byte(directory, 0, std::string("cannot list the folder's files: ") + error.what());
+    throw InputError::about(directory, std::string("cannot list the folder's files: ") + error.what());
   }
   return files;
 }
@@ -104,8 +104,8 @@ void assign_classes(std::vector<OrderedView>& views, const std::string& table) {
   for (OrderedView& ordered : views) {
     const auto found = classes.find(ordered.view.instance);
     if (found == classes.end()) {
-      throw InputError::at_byte(
-          table, 0, "expected a class for " + shortshot_bench::quoted(ordered.view.instance) + ", found none");
+      throw InputError::about(
+          table, "expected a class for " + shortshot_bench::quoted(ordered.view.instance) + ", found none");
     }
     ordered.view.object_class = found->second;
   }
@@ -133,6 +133,7 @@ ViewSet make_view_set(const std::string& name, Split split, const std::string& d
                       std::vector<LabeledView> views) {
   std::vector<std::string> paths;
   for (const LabeledView& view : views) paths.push_back(directory + "/" + view.file);
+  require_files(paths, "a cloud");
   return {name, split, std::move(views),
           [paths = std::move(paths)](std::size_t i) { return read_colored_cloud(paths.at(i)); }};
 }

@@ -52,7 +52,7 @@ inline constexpr const char* looked_for_views =
 ///   object is its own. A sequence is a camera; NP1 and NP3 train, NP2 tests. NOT CHECKED against a real download, for
 ///   none was at hand: neither the layout nor where the files' coordinates have the camera.
 ///
-/// Throws InputError for a table that is broken or lacks an object's class.
+/// Throws InputError for a table that is broken or lacks an object's class, and for clouds that are missing.
 std::vector<ViewSet> open_view_sets(const std::string& directory);
 
 }  // namespace shortshot_bench::datasets

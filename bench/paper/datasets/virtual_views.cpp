@@ -29,12 +29,17 @@ void check(const VirtualViewOptions& options) {
 }
 
 MeshRayCaster read_object(const std::string& path, const VirtualViewOptions& options) {
-  MeshRayCaster object(read_textured_mesh(path));
+  TexturedMesh mesh = read_textured_mesh(path);
+  for (Eigen::Vector3f& v : mesh.vertices) {
+    if (options.up == 'x') v = Eigen::Vector3f(v.y(), v.z(), v.x());
+    if (options.up == 'y') v = Eigen::Vector3f(v.z(), v.x(), v.y());
+    v *= static_cast<float>(options.scale);
+  }
+  MeshRayCaster object(std::move(mesh));
   const double diagonal_m = bounding_box(object.mesh()).diagonal().norm();
   if (diagonal_m < options.nearest_m) return object;
-  throw InputError::at_byte(
-      path, 0,
-      "expected an object smaller than the camera's distance in meters, found one of " + std::to_string(diagonal_m));
+  throw InputError::about(path, "expected an object smaller than the camera's distance in meters, found one of " +
+                                    std::to_string(diagonal_m));
 }
 
 void add_views(const std::string& object, const std::string& object_class, std::vector<VirtualView>& views) {

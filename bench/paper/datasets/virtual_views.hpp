@@ -14,6 +14,8 @@ namespace shortshot_bench::datasets {
 /// The protocol's numbers that may be changed. Those of the camera and of its places around the object may not: see
 /// virtual_view_renderer.cpp.
 struct VirtualViewOptions {
+  double scale = 1.0;      // meters in a unit of the meshes
+  char up = 'z';           // their axis that points up
   std::uint32_t seed = 1;  // draws all of what follows
   double nearest_m = 0.8;  // the distance of the camera from the object's center
   double farthest_m = 1.3;
@@ -56,9 +58,9 @@ inline constexpr const char* looked_for_meshes = "classes.csv with OBJECT/textur
 bool holds_meshes(const std::string& directory);
 
 /// `directory` holds classes.csv, whose columns object and object_class list the objects, and OBJECT/textured.obj for
-/// each of them, in meters and standing on its own z axis, as the YCB scans do. The meshes are read at once and shared
-/// by all copies of the set. Throws InputError for anything that is missing or broken, std::invalid_argument for
-/// options that are out of range.
+/// each of them, in meters and standing on its own z axis, as the YCB scans do, or as the options say. The meshes are
+/// read at once and shared by all copies of the set. Throws InputError for anything that is missing or broken,
+/// std::invalid_argument for options that are out of range.
 VirtualViewSet open_virtual_views(const std::string& directory, const VirtualViewOptions& options = {});
 
 }  // namespace shortshot_bench::datasets

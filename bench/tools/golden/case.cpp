@@ -26,7 +26,7 @@ class Description {
     } catch (const json::parse_error& error) {
       throw InputError::at_byte(path_, error.byte, error.what());
     } catch (const json::exception& error) {  // numbers that no double can hold
-      throw InputError::at_byte(path_, 0, error.what());
+      throw InputError::about(path_, error.what());
     }
     if (!root_.is_object()) throw InputError::at_line(path_, 1, "expected a JSON object");
   }
@@ -48,7 +48,7 @@ class Description {
     constexpr std::uintmax_t most_bytes = 1U << 26;  // a million key points and their kinds
     std::error_code failed;
     if (!std::filesystem::is_regular_file(path_, failed)) {
-      throw InputError::at_byte(path_, 0, "the folder has no such file");
+      throw InputError::about(path_, "the folder has no such file");
     }
     if (std::filesystem::file_size(path_, failed) > most_bytes) {
       throw InputError::at_byte(path_, most_bytes, "far too large to be the description of a case");
@@ -56,7 +56,7 @@ class Description {
     std::ifstream file(path_, std::ios::binary);
     std::ostringstream text;
     text << file.rdbuf();
-    if (!file) throw InputError::at_byte(path_, 0, "cannot read the file");
+    if (!file) throw InputError::about(path_, "cannot read the file");
     text_ = text.str();
   }
 

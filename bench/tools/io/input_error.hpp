@@ -15,6 +15,9 @@ class InputError : public std::runtime_error {
     return InputError(path + ":" + std::to_string(line) + ": " + what);
   }
 
+  // "PATH: what", of a folder, or of a file as a whole.
+  static InputError about(const std::string& path, const std::string& what) { return InputError(path + ": " + what); }
+
   // "FILE: byte N: what"; bytes count from 0.
   static InputError at_byte(const std::string& path, std::uint64_t byte, const std::string& what) {
     return InputError(path + ": byte " + std::to_string(byte) + ": " + what);

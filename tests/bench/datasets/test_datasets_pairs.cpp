@@ -108,7 +108,7 @@ TEST_CASE("a folder without pairs has no set, and what to say about it is at han
   const Folder folder;
   const auto said = [&] { return error_in(folder, [&] { throw not_recognized(folder.path(), looked_for_pairs); }); };
   const std::string looked_for =
-      "SET: byte 0: expected a folder with object_scene_pairs.csv, view_pairs.csv or frame_pairs.csv, found ";
+      "SET: expected a folder with object_scene_pairs.csv, view_pairs.csv or frame_pairs.csv, found ";
   CHECK(open_pair_sets(folder.path()).empty());
   CHECK(said() == looked_for + "no folder of this name");
   folder.add("labels.csv", "file\na\n");
@@ -151,25 +151,36 @@ TEST_CASE("what is no rigid motion is refused") {
   CHECK(error_of_motion("1 0 0 nan\n") == "1: expected finite numbers for a rigid motion, found 'nan'");
   CHECK(error_of_motion("") == "1: expected 4 rows for a rigid motion, found only 0");
   CHECK(error_of_motion("1.01 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n") ==
-        " byte 0: expected a rotation R, found R^T R off 1 by 0.020100");
+        " expected a rotation R, found R^T R off 1 by 0.020100");
   CHECK(error_of_motion("1.004 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n") == "no name: no error");
-  CHECK(error_of_motion("1 0 0 0\n0 1 0 0\n0 0 -1 0\n0 0 0 1\n") ==
-        " byte 0: expected a rotation, found a mirror image");
+  CHECK(error_of_motion("1 0 0 0\n0 1 0 0\n0 0 -1 0\n0 0 0 1\n") == " expected a rotation, found a mirror image");
   CHECK(error_of_motion("1 0 0 0\n0 1 0 0\n0 0 1 0\n0.5 0 0 1\n") ==
-        " byte 0: expected 0 0 0 1 as the last row, found another");
+        " expected 0 0 0 1 as the last row, found another");
 }
 
-TEST_CASE("missing files are named: motions when the set is opened, clouds when they are loaded") {
+TEST_CASE("missing files are named when the set is opened, before any work is done; broken ones when they are loaded") {
   const Folder folder;
   add_views(folder);
   folder.remove("views_color/b.pcd");
+  CHECK(error_of_opening(folder) ==
+        "SET/views_color/b.pcd: expected a cloud's file, found no file of this name; 1 of 2 are missing");
   const auto load = [&] { open_pair_sets(folder.path()).front().load(0); };
-  CHECK(error_in(folder, load).rfind("SET/views_color/b.pcd: byte 0: ", 0) == 0);
   folder.add("views_color/b.pcd", pcd_at(5.0F, false));
-  CHECK(error_in(folder, load) == "SET/views_color/b.pcd: byte 0: expected a cloud with colors, found none");
+  CHECK(error_in(folder, load) == "SET/views_color/b.pcd: expected a cloud with colors, found none");
   folder.add("views_color/b.pcd", "no cloud");
   CHECK(error_in(folder, load).rfind("SET/views_color/b.pcd:1: ", 0) == 0);
   folder.remove("view_pairs_gt/ab.xf");
-  CHECK(error_of_opening(folder) ==
-        "SET/view_pairs_gt/ab.xf: byte 0: expected a rigid motion, found no file of this name");
+  CHECK(error_of_opening(folder) == "SET/view_pairs_gt/ab.xf: expected a rigid motion, found no file of this name");
+}
+
+TEST_CASE("other units are made meters: of clouds and of motions") {
+  const Folder folder;
+  add_scenes(folder);
+  const PairSet set = shortshot_bench::datasets::scaled(open_pair_sets(folder.path()).front(), 0.001);
+  const ViewPair pair = set.load(0);
+  CHECK(pair.source.xyz[0] == 0.001F);
+  CHECK(pair.target.xyz[0] == 0.003F);
+  CHECK(pair.truth[3] == 0.0005);
+  CHECK(pair.truth == set.truths[0]);
+  CHECK(set.load_cloud(set.targets[0]).xyz[0] == 0.003F);
 }

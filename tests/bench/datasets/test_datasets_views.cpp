@@ -75,8 +75,11 @@ TEST_CASE("labels that are broken are refused by file and line, clouds by their 
   folder.add("labels.csv", labels);
   folder.add("b.pcd", pcd_at(1.0F, false));
   const auto load = [&](std::size_t i) { return error_in(folder, [&] { open_view_sets(folder.path())[0].load(i); }); };
-  CHECK(load(0).rfind("SET/a.pcd: byte 0: ", 0) == 0);
-  CHECK(load(1) == "SET/b.pcd: byte 0: expected a cloud with colors, found none");
+  CHECK(load(0) == "SET/a.pcd: expected a cloud, found no file of this name; 1 of 2 are missing");
+  CHECK(load(1) == load(0));  // before any work is done
+  folder.add("a.pcd", "no cloud");
+  CHECK(load(0).rfind("SET/a.pcd:1: ", 0) == 0);
+  CHECK(load(1) == "SET/b.pcd: expected a cloud with colors, found none");
 }
 
 TEST_CASE("W-RGB-D: labels from the files' names, ordered by their numbers, in folders or without") {
@@ -139,7 +142,7 @@ TEST_CASE("BigBIRD: classes from a table, which has to have each object once") {
   CHECK(sets[0].views[0].instance == "coffee");
   CHECK(sets[0].views[1].object_class == "can");
   folder.add("classes.csv", "object,object_class\ncoffee,jar\n");
-  CHECK(error_of_opening(folder) == "SET/classes.csv: byte 0: expected a class for 'tea', found none");
+  CHECK(error_of_opening(folder) == "SET/classes.csv: expected a class for 'tea', found none");
   folder.add("classes.csv", "object,object_class\ncoffee,jar\ntea,can\ncoffee,can\n");
   CHECK(error_of_opening(folder) ==
         "SET/classes.csv:4: expected one class for each object, found a second one for 'coffee'");

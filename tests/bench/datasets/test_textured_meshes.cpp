@@ -56,7 +56,7 @@ TEST_CASE("what is missing or broken is named") {
     INFO(error());
     return error().rfind("SET/" + begin, 0) == 0;
   };
-  CHECK(says("classes.csv: byte 0: "));
+  CHECK(says("classes.csv: "));
   add_set(folder);
   CHECK(error() == "no error");
 
@@ -65,12 +65,12 @@ TEST_CASE("what is missing or broken is named") {
   folder.add("classes.csv", "object,object_class\none,cube\nother\n");
   CHECK(says("classes.csv:3: "));
   folder.add("classes.csv", "object,object_class\nother,box\nthird,cube\n");
-  CHECK(says("third/textured.obj: byte 0: expected a mesh, found no file"));
+  CHECK(says("third/textured.obj: expected a mesh, found no file"));
   folder.add("classes.csv", "object,object_class\nother,box\n");
 
   const auto says_of_faces = [&](const std::string& faces, const std::string& message) {
     folder.add("other/textured.obj", cube_vertices() + faces);
-    return says("other/textured.obj: byte 0: " + message);
+    return says("other/textured.obj: " + message);
   };
   CHECK(says_of_faces("", "there is no face"));
   CHECK(says_of_faces("f 1/1 2/1 4/1 3/1\n", "there are faces which are not triangles"));
@@ -81,19 +81,19 @@ TEST_CASE("what is missing or broken is named") {
   CHECK(says_of_faces("f 1 2 3\n", "face 1 has a corner without a texture coordinate"));
   CHECK(says_of_faces("usemtl unknown\nf 1/1 2/1 3/1\n", "there are faces without a texture"));
   folder.add("other/textured.obj", cube_vertices(1000.0) + cube_faces());
-  CHECK(says("other/textured.obj: byte 0: expected an object smaller than"));
+  CHECK(says("other/textured.obj: expected an object smaller than"));
   add_cube(folder, "other");
 
   folder.add("other/textured.mtl", "newmtl paper\nKd 1 1 1\n");
-  CHECK(says("other/textured.obj: byte 0: there are faces without a texture"));
+  CHECK(says("other/textured.obj: there are faces without a texture"));
   folder.remove("other/textured.mtl");
-  CHECK(says("other/textured.obj: byte 0: there are faces without a texture. "));
+  CHECK(says("other/textured.obj: there are faces without a texture. "));
   CHECK(error().find("textured.mtl") != std::string::npos);
   add_cube(folder, "other");
   folder.add("other/texture.png", texture_image().substr(0, 40));
-  CHECK(says("other/texture.png: byte 0: "));
+  CHECK(says("other/texture.png: "));
   folder.remove("other/texture.png");
-  CHECK(says("other/texture.png: byte 0: "));
+  CHECK(says("other/texture.png: "));
 }
 
 TEST_CASE("faces of two textures are refused") {
@@ -102,5 +102,5 @@ TEST_CASE("faces of two textures are refused") {
   folder.add("one/textured.mtl", "newmtl paper\nmap_Kd texture.png\nnewmtl metal\nmap_Kd metal.png\n");
   folder.add("one/textured.obj", cube_vertices() + cube_faces() + "usemtl metal\nf 1/1 2/1 3/1\n");
   CHECK(dataset_test::error_in(folder, [&] { open_virtual_views(folder.path()); }) ==
-        "SET/one/textured.obj: byte 0: the faces have more than one texture");
+        "SET/one/textured.obj: the faces have more than one texture");
 }

@@ -188,7 +188,7 @@ TEST_CASE("two cannot write into one folder; a folder that cannot be written is 
   {
     const Journal first(out, radius_two);
     const std::string what = refusal_of([&] { squares.run(out); }, out);
-    CHECK(what.find("/journal.lock: byte 0: another process is writing results into this folder") == 0);
+    CHECK(what.find("/journal.lock: another process is writing results into this folder") == 0);
     CHECK_THROWS_AS(merge_journals({out}, out), InputError);
   }
   CHECK(squares.computed == 0);
@@ -244,10 +244,10 @@ TEST_CASE("what does not belong together is not merged") {
             [&] {
               merge_journals({directory.file("one"), two}, into);
             },
-            two) == "/journal.jsonl: byte 0: another result for 'square 1' than in a folder before: 5");
+            two) == "/journal.jsonl: another result for 'square 1' than in a folder before: 5");
   const std::string none = directory.file("none");
   CHECK(refusal_of([&] { merge_journals({none}, into); }, none) ==
-        "/journal.jsonl: byte 0: there are no results in this folder");
+        "/journal.jsonl: there are no results in this folder");
   CHECK(!read_journal(into));
 }
 
@@ -280,7 +280,10 @@ TEST_CASE("two units of one key are refused before anything is done") {
 }
 
 TEST_CASE("progress says what is done, how long it took and how long the rest will take") {
-  CHECK(progress_text(153, 3, 9, 65.0) == "12/153 done, 0:01:05 elapsed, about 0:16:58 left");
+  CHECK(progress_text(153, 3, 9, 65.0) == "12/153 done, 0:01:05 elapsed, about 0:16:01 left");
+  CHECK(progress_text(10, 0, 5, 10.0, 1) == "5/10 done, 0:00:10 elapsed, about 0:00:08 left");
+  CHECK(progress_text(153, 3, 2, 65.0) == "5/153 done, 0:01:05 elapsed");  // the first ones tell little
+  CHECK(progress_text(153, 3, 11, 65.0, 4) == "14/153 done, 0:01:05 elapsed");
   CHECK(progress_text(2, 0, 2, 7322.4) == "2/2 done, 2:02:02 elapsed, about 0:00:00 left");
   const TemporaryDirectory directory;
   Squares squares(2);

@@ -37,6 +37,13 @@ TEST_CASE("paper: options") {
   REQUIRE(parse({"matching", "a", "--descriptor", "ssh32", "--keep-frames", "50,5"}, options, exit_code));
   CHECK(options.descriptors ==
         std::vector<std::string>{"ssh32", "ssh32-best50", "ssh32-random50", "ssh32-best5", "ssh32-random5"});
+  REQUIRE(parse({"matching", "a", "--radius", "0.1", "--leaf", "0.03", "--normal-radius", "0.02"}, options, exit_code));
+  const ViewSettings settings = with_options({}, options);
+  CHECK((settings.radius == 0.1f && settings.leaf == 0.03f && settings.normal_radius == 0.02f));
+  options = {};
+  CHECK(with_options({}, options).radius == ViewSettings{}.radius);
+  REQUIRE(parse({"recognition", "a", "--up", "y", "--scale", "0.001"}, options, exit_code));
+  CHECK((options.up == 'y' && options.scale == 0.001));
   options = {};
   REQUIRE(parse({"recognition", "a"}, options, exit_code));
   CHECK(options.descriptors.size() == 6);
@@ -48,6 +55,9 @@ TEST_CASE("paper: wrong options end with exit code 2") {
                                                     {"matching", "a", "--shard", "4/3"},
                                                     {"matching", "a", "--tolerance", "nan"},
                                                     {"matching", "a", "--tolerance", "0"},
+                                                    {"matching", "a", "--radius", "-1"},
+                                                    {"matching", "a", "--scale", "inf"},
+                                                    {"recognition", "a", "--up", "down"},
                                                     {"matching", "a", "--keep-frames", "100"},
                                                     {"matching", "a", "--keep-frames", "0"},
                                                     {"cooking", "a"},
@@ -63,6 +73,8 @@ TEST_CASE("paper: data sets are found in a folder, or in the folders in it") {
   const dataset_test::Folder folder;
   folder.add("kinect/view_pairs.csv", "source,target,gt\na.pcd,b.pcd,m.xf\n");
   folder.add("kinect/view_pairs_gt/m.xf", dataset_test::no_motion());
+  folder.add("kinect/views_color/a.pcd", dataset_test::pcd_at(1.0f));
+  folder.add("kinect/views_color/b.pcd", dataset_test::pcd_at(2.0f));
   folder.add("other/notes.txt", "nothing");
   PaperOptions options;
   options.command = "matching";
@@ -77,10 +89,45 @@ TEST_CASE("paper: data sets are found in a folder, or in the folders in it") {
   options.data = {folder.path("other")};
   CHECK(dataset_test::error_in(folder, [&] {
           static_cast<void>(matching_experiment(options));
-        }).find("SET/other: byte 0: expected a folder with object_scene_pairs.csv") == 0);
+        }).find("SET/other: expected a folder with object_scene_pairs.csv") == 0);
   CHECK(dataset_test::error_in(folder, [&] {
           static_cast<void>(recognition_experiment(options));
-        }).find("SET/other: byte 0: expected a folder with labels.csv") == 0);
+        }).find("SET/other: expected a folder with labels.csv") == 0);
+}
+
+TEST_CASE("paper: folders of one name are told apart, with or without a slash behind; one given twice is refused") {
+  const dataset_test::Folder folder;
+  for (const std::string place : {"one/views/", "two/views/"}) {
+    folder.add(place + "view_pairs.csv", "source,target,gt\na.pcd,b.pcd,m.xf\n");
+    folder.add(place + "view_pairs_gt/m.xf", dataset_test::no_motion());
+    folder.add(place + "views_color/a.pcd", dataset_test::pcd_at(1.0f));
+    folder.add(place + "views_color/b.pcd", dataset_test::pcd_at(2.0f));
+  }
+  PaperOptions options;
+  options.command = "matching";
+  options.descriptors = {"ssh32"};
+  options.data = {folder.path("one/views/"), folder.path("two/views")};
+  const Experiment experiment = matching_experiment(options);
+  REQUIRE(experiment.units.size() == 2);
+  CHECK(experiment.units[0].key == "one/views views/a b");
+  CHECK(experiment.units[1].key == "two/views views/a b");
+  options.data = {folder.path("one/views/"), folder.path("one/views")};
+  CHECK(dataset_test::error_in(folder, [&] { static_cast<void>(matching_experiment(options)); }) ==
+        "SET/one/views: this folder is given twice");
+}
+
+TEST_CASE("paper: views of which none is to be tested are refused, and that is said") {
+  const dataset_test::Folder folder;
+  folder.add("mug_1_1_1.pcd", dataset_test::pcd_at(1.0f));  // videos 1 and 4 train, 2 tests
+  folder.add("mug_1_4_1.pcd", dataset_test::pcd_at(1.0f));
+  PaperOptions options;
+  options.command = "recognition";
+  options.descriptors = {"ssh32"};
+  options.data = {folder.path()};
+  CHECK(dataset_test::error_in(folder, [&] { static_cast<void>(recognition_experiment(options)); }) ==
+        "SET: expected a folder with labels.csv, CLASS_INSTANCE_VIDEO_FRAME.pcd (three numbers) or "
+        "OBJECT/clouds/NP1_0.pcd, or classes.csv with OBJECT/textured.obj (there are 2 views of the set 'w-rgbd', but "
+        "not both: some to train and some to test), found none of them");
 }
 
 TEST_CASE("paper: a figure that is not there, and data without a band, are no success") {
@@ -103,6 +150,10 @@ TEST_CASE("paper: claims hold, do not hold, or are undecided") {
   CHECK(verdict_of(0.1, 0.3) == "holds");
   CHECK(verdict_of(0.0, 0.3) == "undecided");
   CHECK(verdict_of(0.0, 0.09) == "does not hold");
+  const auto gain = [](double low, double high) { return verdict({"", "", {0.0, low, high}, 0.0, "", true}); };
+  CHECK(gain(0.0, 0.0) == "does not hold");
+  CHECK(gain(0.0, 0.1) == "undecided");
+  CHECK(gain(0.01, 0.1) == "holds");
   const shortshot_bench::campaign::Section section =
       section_of({Claim{"The claim", "figure", {0.0, -1.0, 0.0}, 0.1, "The reason."}});
   CHECK(section.text.find("The claim: does not hold. Likely reason: The reason.") != std::string::npos);
