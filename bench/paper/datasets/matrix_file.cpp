@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "paper/datasets/dataset_files.hpp"
+#include "tools/io/scalar_type.hpp"
 #include "tools/io/text_rows.hpp"
 
 namespace shortshot_bench::datasets {
@@ -20,7 +21,7 @@ std::vector<double> read_matrix(const std::string& path, std::size_t rows, std::
                               " numbers for " + what + ", found another one of " + std::to_string(words.size()));
     }
     for (const std::string_view word : words) {
-      const float value = expect_float(source, {word, source.line_number()}, what);
+      const float value = to_float(expect_number(source, {word, source.line_number()}, what));
       if (!std::isfinite(value))
         throw source.line_error("expected finite numbers for " + what + ", found " + quoted(word));
       values.push_back(static_cast<double>(value));

@@ -16,10 +16,12 @@
 
 #include "shortshot/cloud/cloud.hpp"
 #include "shortshot/status.hpp"
+#include "tools/demo/hints.hpp"
 #include "tools/demo/options.hpp"
 #include "tools/demo/run.hpp"
 #include "tools/io/input_error.hpp"
 #include "tools/io/read_cloud.hpp"
+#include "tools/io/repeated_points.hpp"
 #include "tools/io/view_of_cloud.hpp"
 #include "tools/io/write_descriptor_pcd.hpp"
 #include "tools/io/write_npy.hpp"
@@ -46,9 +48,21 @@ std::size_t valid_points(const shortshot::CloudView& view) {
   return valid;
 }
 
-const char* channels_of(const RgbdCloud& cloud) {
-  if (cloud.has_intensities()) return cloud.has_colors() ? "with color and intensity" : "with intensity";
-  return cloud.has_colors() ? "with color" : "without color";
+std::string channels_of(const RgbdCloud& cloud) {
+  std::string channels = cloud.has_colors() ? "with color" : "";
+  if (cloud.has_intensities()) channels += channels.empty() ? "with intensity" : " and intensity";
+  if (cloud.has_normals()) channels += channels.empty() ? "with normals" : " and normals";
+  return channels.empty() ? "without color" : channels;
+}
+
+void print_note(const std::string& note) { std::printf("  note                %s\n", note.c_str()); }
+
+/// Before it is described: a refusal of the whole cloud is the better understood.
+void print_cloud(const RgbdCloud& cloud, double read_ms, std::size_t dropped) {
+  std::printf("  points              %zu (%zu x %zu), %zu valid, %s, in %.1f ms\n", cloud.size(), cloud.width,
+              cloud.height, valid_points(view_of_cloud(cloud)), channels_of(cloud).c_str(), read_ms);
+  for (const std::string& note : cloud.notes) print_note(note);
+  if (dropped > 0) print_note(std::to_string(dropped) + " points of 0 0 0 left out");
 }
 
 std::size_t with_normal(const std::vector<shortshot::SurfaceNormal>& normals) {
@@ -56,16 +70,17 @@ std::size_t with_normal(const std::vector<shortshot::SurfaceNormal>& normals) {
                                                 [](const shortshot::SurfaceNormal& n) { return !std::isnan(n.x); }));
 }
 
-void print_result(const RgbdCloud& cloud, double read_ms, const DemoOptions& options, const DemoResult& result) {
+void print_result(const RgbdCloud& cloud, const DemoOptions& options, const DemoResult& result) {
   const std::size_t keypoints = result.keypoints.size();
   const double bytes = 4.0 * static_cast<double>(result.size);
   const double sum = std::accumulate(result.neighbors.begin(), result.neighbors.end(), 0.0);
   const auto [least, most] = std::minmax_element(result.neighbors.begin(), result.neighbors.end());
-  std::printf("  points              %zu (%zu x %zu), %zu valid, %s, in %.1f ms\n", cloud.size(), cloud.width,
-              cloud.height, valid_points(view_of_cloud(cloud)), channels_of(cloud), read_ms);
   std::printf("  key points          %zu, one per %g m voxel, in %.1f ms\n", keypoints,
               static_cast<double>(options.leaf), result.sample_ms);
-  if (!result.normals.empty()) {
+  if (result.normals_of_file) {
+    std::printf("  normals             %zu of the file; --normal-radius R estimates them\n",
+                with_normal(result.normals));
+  } else if (!result.normals.empty()) {
     std::printf("  normals             %zu points within %g m, in %.1f ms\n", with_normal(result.normals),
                 static_cast<double>(normal_radius(options)), result.normals_ms);
   }
@@ -84,6 +99,8 @@ void print_result(const RgbdCloud& cloud, double read_ms, const DemoOptions& opt
     const auto rows = std::count(result.status.begin(), result.status.end(), status);
     if (rows > 0) std::printf("  status              %6ld  %s\n", static_cast<long>(rows), shortshot::message(status));
   }
+  const std::string hint = hint_at_units(cloud, options, result);
+  if (!hint.empty()) print_note(hint);
 }
 
 /// Rows are key points in ascending order of their index; those without a descriptor are zeros.
@@ -97,8 +114,14 @@ void write_result(const RgbdCloud& cloud, const DemoOptions& options, const Demo
     }
     std::vector<std::string> comments = {options.descriptor + ", radius " + std::to_string(options.radius) +
                                          " m, L2 norm 1 (all zeros: not described); parts one after the other:"};
-    if (!result.normals.empty()) {
+    if (result.normals_of_file) {
+      comments.insert(comments.begin(), "normals of the cloud's file");
+    } else if (!result.normals.empty()) {
       comments.insert(comments.begin(), "normals within " + std::to_string(normal_radius(options)) + " m");
+    }
+    if (cloud.is_shifted()) {
+      comments.push_back("x y z are from the origin " + std::to_string(cloud.origin[0]) + " " +
+                         std::to_string(cloud.origin[1]) + " " + std::to_string(cloud.origin[2]) + " of the cloud");
     }
     comments.insert(comments.end(), result.layout.begin(), result.layout.end());
     write_descriptor_pcd(options.out, positions, result.values.data(), result.size, comments);
@@ -116,11 +139,14 @@ int demonstrate(const std::string& file, const DemoOptions& options) {
       throw std::runtime_error("--out would overwrite the cloud itself");
     }
     const Stopwatch reading;
-    const RgbdCloud cloud = generated ? make_tabletop() : read_cloud(file);
+    RgbdCloud cloud = generated ? make_tabletop() : read_cloud(file);
     const double read_ms = reading.elapsed_ms();
+    const std::size_t dropped = options.drop_zeros ? drop_zeros(cloud) : 0;
     std::printf("%s\n", generated ? "generated tabletop scene" : file.c_str());
+    print_cloud(cloud, read_ms, dropped);
+    std::fflush(stdout);  // before what stderr may say
     const DemoResult result = run_demo(cloud, options);
-    print_result(cloud, read_ms, options, result);
+    print_result(cloud, options, result);
     if (!options.out.empty()) write_result(cloud, options, result);
     if (options.check && !check_searches(cloud, options)) return 1;
     return 0;

@@ -20,8 +20,9 @@ bool parse_options(int argc, const char* const* argv, DemoOptions& options, int&
   app.add_option("--radius", options.radius, "support radius, in the clouds' unit (meters)")
       ->check(finite_and_positive)
       ->capture_default_str();
-  app.add_option("--normal-radius", options.normal_radius,
-                 "radius of the normals for shot352 and cshot1344 [a quarter of --radius]")
+  app.add_option(
+         "--normal-radius", options.normal_radius,
+         "estimate normals for shot352 and cshot1344 within this radius [the file's; else a quarter of --radius]")
       ->check(finite_and_positive);
   app.add_option("--leaf", options.leaf, "voxel size of the uniform key points, in the same unit")
       ->check(finite_and_positive)
@@ -32,6 +33,7 @@ bool parse_options(int argc, const char* const* argv, DemoOptions& options, int&
   app.add_option("--threads", options.threads, "threads, 1 to 256")->check(CLI::Range(1, 256))->capture_default_str();
   app.add_option("--out", options.out, "write the descriptors to this .npy or .pcd file (one cloud only)");
   app.add_flag("--towards-camera", options.towards_camera, "turn the frames' z axes towards the camera");
+  app.add_flag("--drop-zeros", options.drop_zeros, "leave out points of (0, 0, 0)");
   app.add_flag("--check", options.check, "compare all searches, and 1, 2 and 3 threads: exit 1 if a bit differs");
   exit_code = 0;
   try {

@@ -11,13 +11,14 @@ struct DemoOptions {
   std::vector<std::string> clouds;  // files; empty: the generated tabletop
   std::string descriptor = "scsh336";
   float radius = 0.04f;
-  std::optional<float> normal_radius;  // of the normals, where the descriptor needs them; a quarter of the radius
+  std::optional<float> normal_radius;  // of the normals, where it needs them; the file's, or a quarter of the radius
   float leaf = 0.02f;
   std::string search = "grid";
   unsigned threads = 1;
   std::string out;  // empty: nothing is written
   bool towards_camera = false;
   bool check = false;
+  bool drop_zeros = false;  // points of (0, 0, 0) are no measurements
 };
 
 /// Parses the command line. Returns true if there is something to do; otherwise `exit_code` is 0 (help was asked for)

@@ -46,6 +46,14 @@ void estimate_normals(const RgbdCloud& cloud, const DemoOptions& options, DemoRe
   result.normals_ms = stopwatch.elapsed_ms();
 }
 
+std::vector<shortshot::SurfaceNormal> normals_of(const RgbdCloud& cloud) {
+  std::vector<shortshot::SurfaceNormal> normals(cloud.size());
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    normals[i] = {cloud.normals[3 * i], cloud.normals[3 * i + 1], cloud.normals[3 * i + 2]};
+  }
+  return normals;
+}
+
 template <class Part>
 std::string layout_of(const char* name) {
   using Grid = typename Part::Grid;
@@ -88,7 +96,12 @@ DemoResult describe(const RgbdCloud& cloud, const DemoOptions& options) {
   require(shortshot::sample_uniform(view, options.leaf, result.keypoints));
   result.sample_ms = sampling.elapsed_ms();
   if (D::needs_normals) {
-    estimate_normals(cloud, options, result);
+    result.normals_of_file = cloud.has_normals() && !options.normal_radius;
+    if (result.normals_of_file) {
+      result.normals = normals_of(cloud);
+    } else {
+      estimate_normals(cloud, options, result);
+    }
     view = shortshot::with_normals(view, result.normals.data());
   }
 

@@ -31,6 +31,7 @@ struct DemoResult {
   std::vector<shortshot::Status> status;
   std::vector<std::uint32_t> neighbors;
   std::vector<shortshot::SurfaceNormal> normals;  // one per point, or none if the descriptor needs none
+  bool normals_of_file = false;                   // and not estimated
   std::size_t size = 0;
   std::vector<std::string> layout;  // one line per part
   double sample_ms = 0.0;

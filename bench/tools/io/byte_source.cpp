@@ -57,18 +57,34 @@ std::string read_whole_file(const std::string& path) {
   return bytes;
 }
 
+// What ends the first line, and so all of them.
+std::string_view line_end_of(std::string_view bytes) {
+  const std::size_t first = bytes.find_first_of("\r\n");
+  if (first == std::string_view::npos) return "\n";
+  if (bytes[first] == '\r') {  // a text file copied twice the wrong way has CR CR LF
+    const std::size_t next = bytes.find_first_not_of('\r', first);
+    return next == std::string_view::npos || bytes[next] != '\n' ? "\r" : "\n";
+  }
+  const std::string_view behind = bytes.substr(first + 1, 2);
+  return behind.substr(0, 1) == "\r" && behind != "\r\n" ? "\n\r" : "\n";
+}
+
 }  // namespace
 
-ByteSource::ByteSource(const std::string& path) : path_(path), bytes_(read_whole_file(path)) {}
+ByteSource::ByteSource(const std::string& path) : path_(path), bytes_(read_whole_file(path)) {
+  if (bytes_.compare(0, 3, "\xef\xbb\xbf") == 0) begin_bytes_ = 3;
+  line_end_ = line_end_of(bytes_);
+  rewind();
+}
 
 bool ByteSource::next_line(std::string_view& line) {
   const std::string_view rest_of_file = rest();
   if (rest_of_file.empty()) return false;
-  const std::size_t length = std::min(rest_of_file.find('\n'), rest_of_file.size());
-  offset_bytes_ += std::min(length + 1, rest_of_file.size());
+  const std::size_t length = std::min(rest_of_file.find(line_end_), rest_of_file.size());
+  offset_bytes_ += std::min(length + line_end_.size(), rest_of_file.size());
   ++line_number_;
   line = rest_of_file.substr(0, length);
-  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  while (!line.empty() && line.back() == '\r') line.remove_suffix(1);
   return true;
 }
 
@@ -83,7 +99,7 @@ std::string_view ByteSource::take(std::uint64_t size_bytes, const char* what) {
 }
 
 void ByteSource::rewind() {
-  offset_bytes_ = 0;
+  offset_bytes_ = begin_bytes_;
   line_number_ = 0;
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 
+#include "lower_case.hpp"
 #include "text_rows.hpp"
 
 namespace shortshot_bench {
@@ -19,8 +20,10 @@ constexpr std::array<std::string_view, 10> keyword_names{"VERSION", "FIELDS", "S
 
 // The position in keyword_names, or its size.
 std::size_t keyword_of(std::string_view word) {
-  if (word == "COLUMNS") return fields;  // the name in files before v0.6
-  const auto found = std::find(keyword_names.begin(), keyword_names.end(), word);
+  const std::string lower = lower_case(word);
+  if (lower == "columns") return fields;  // the name in files before v0.6
+  const auto found = std::find_if(keyword_names.begin(), keyword_names.end(),
+                                  [&](std::string_view name) { return lower_case(name) == lower; });
   return static_cast<std::size_t>(found - keyword_names.begin());
 }
 
@@ -75,9 +78,9 @@ std::uint64_t single_count(const ByteSource& source, const Entries& entries, Key
 }
 
 ScalarType scalar_type(const ByteSource& source, Word type_word, Word size_word) {
-  constexpr std::string_view letters = "IUF";
+  constexpr std::string_view letters = "iuf";
   constexpr std::array kinds{ScalarKind::signed_integer, ScalarKind::unsigned_integer, ScalarKind::floating};
-  const std::size_t letter = letters.find(type_word.text);
+  const std::size_t letter = letters.find(lower_case(type_word.text));
   if (type_word.text.size() != 1 || letter == std::string_view::npos) {
     throw InputError::at_line(source.path(), type_word.line,
                               "expected I, U or F as a TYPE, found " + quoted(type_word.text));
@@ -142,7 +145,7 @@ void set_viewpoint(const ByteSource& source, const Entries& entries, PcdHeader& 
   if (!entries[viewpoint].is_given()) return;
   expect_words(source, entries, viewpoint, 7);  // a translation and a quaternion
   for (std::size_t i = 0; i < header.viewpoint.size(); ++i) {
-    header.viewpoint[i] = expect_float(source, entries[viewpoint].word(i), "VIEWPOINT");
+    header.viewpoint[i] = expect_number(source, entries[viewpoint].word(i), "VIEWPOINT");
     if (!std::isfinite(header.viewpoint[i])) {
       throw InputError::at_line(source.path(), entries[viewpoint].line,
                                 "expected a finite VIEWPOINT, found " + quoted(entries[viewpoint].words[i]));
@@ -153,7 +156,7 @@ void set_viewpoint(const ByteSource& source, const Entries& entries, PcdHeader& 
 void set_data(const ByteSource& source, const Entries& entries, PcdHeader& header) {
   constexpr std::array<std::string_view, 3> names{"ascii", "binary", "binary_compressed"};
   expect_words(source, entries, data, 1);
-  const auto found = std::find(names.begin(), names.end(), entries[data].words.front());
+  const auto found = std::find(names.begin(), names.end(), lower_case(entries[data].words.front()));
   if (found == names.end()) {
     throw source.line_error("expected DATA ascii, binary or binary_compressed, found " +
                             quoted(entries[data].words.front()));

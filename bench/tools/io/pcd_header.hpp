@@ -31,11 +31,11 @@ struct PcdHeader {
   std::uint64_t points = 0;  // = width * height
   std::uint64_t values_per_point = 0;
   std::uint64_t point_size_bytes = 0;
-  std::array<float, 3> viewpoint{0, 0, 0};
+  std::array<double, 3> viewpoint{0, 0, 0};
   PcdData data = PcdData::ascii;
 };
 
-// True for the words that start the lines of a PCD header.
+// True, in any case, for the words that start the lines of a PCD header.
 bool is_pcd_keyword(std::string_view word);
 
 // Reads up to and with the DATA line. The names point into the source. Throws InputError.

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstddef>
 #include <string>
+#include <system_error>
 
+#include "lower_case.hpp"
 #include "text_rows.hpp"
 
 namespace shortshot_bench {
@@ -15,7 +18,7 @@ struct TypeName {
   ScalarType type;
 };
 
-constexpr std::array<TypeName, 16> type_names{{
+constexpr std::array<TypeName, 18> type_names{{
     {"char", {ScalarKind::signed_integer, 1}},
     {"int8", {ScalarKind::signed_integer, 1}},
     {"uchar", {ScalarKind::unsigned_integer, 1}},
@@ -28,6 +31,8 @@ constexpr std::array<TypeName, 16> type_names{{
     {"int32", {ScalarKind::signed_integer, 4}},
     {"uint", {ScalarKind::unsigned_integer, 4}},
     {"uint32", {ScalarKind::unsigned_integer, 4}},
+    {"int64", {ScalarKind::signed_integer, 8}},
+    {"uint64", {ScalarKind::unsigned_integer, 8}},
     {"float", {ScalarKind::floating, 4}},
     {"float32", {ScalarKind::floating, 4}},
     {"double", {ScalarKind::floating, 8}},
@@ -35,8 +40,9 @@ constexpr std::array<TypeName, 16> type_names{{
 }};
 
 ScalarType parse_type(const ByteSource& source, std::string_view word) {
+  const std::string lower = lower_case(word);
   const auto found = std::find_if(type_names.begin(), type_names.end(),
-                                  [&](const TypeName& candidate) { return candidate.name == word; });
+                                  [&](const TypeName& candidate) { return candidate.name == lower; });
   if (found == type_names.end()) {
     throw source.line_error("expected a PLY type such as uchar or float, found " + quoted(word));
   }
@@ -53,7 +59,7 @@ void expect_words(const ByteSource& source, const std::vector<std::string_view>&
 PlyFormat parse_format(const ByteSource& source, const std::vector<std::string_view>& words) {
   constexpr std::array<std::string_view, 3> names{"ascii", "binary_little_endian", "binary_big_endian"};
   expect_words(source, words, 3, "format FORMAT VERSION");
-  const auto found = std::find(names.begin(), names.end(), words[1]);
+  const auto found = std::find(names.begin(), names.end(), lower_case(words[1]));
   if (found == names.end()) {
     throw source.line_error("expected the format ascii, binary_little_endian or binary_big_endian, found " +
                             quoted(words[1]));
@@ -72,12 +78,15 @@ PlyElement parse_element(const ByteSource& source, const std::vector<std::string
 
 PlyProperty parse_property(const ByteSource& source, const std::vector<std::string_view>& words) {
   PlyProperty property;
-  property.is_list = words.size() > 1 && words[1] == "list";
+  property.is_list = words.size() > 1 && lower_case(words[1]) == "list";
   if (property.is_list) {
     expect_words(source, words, 5, "property list COUNT_TYPE TYPE NAME");
     property.count_type = parse_type(source, words[2]);
     if (property.count_type.kind == ScalarKind::floating) {
       throw source.line_error("expected a whole number type for a list count, found " + quoted(words[2]));
+    }
+    if (property.count_type.size_bytes > 4) {
+      throw source.line_error("expected a type of at most 4 bytes for a list count, found " + quoted(words[2]));
     }
   } else {
     expect_words(source, words, 3, "property TYPE NAME");
@@ -87,10 +96,23 @@ PlyProperty parse_property(const ByteSource& source, const std::vector<std::stri
   return property;
 }
 
+// "obj_info num_cols 512" and "obj_info num_rows 400"; whatever else obj_info says is free text.
+void parse_grid_size(const std::vector<std::string_view>& words, PlyHeader& header) {
+  if (words.size() != 3) return;
+  const std::string name = lower_case(words[1]);
+  std::uint64_t* const size = name == "num_cols" ? &header.columns : name == "num_rows" ? &header.rows : nullptr;
+  if (size == nullptr) return;
+  const char* const end = words[2].data() + words[2].size();
+  std::uint32_t value = 0;
+  const std::from_chars_result result = std::from_chars(words[2].data(), end, value);
+  *size = result.ec == std::errc() && result.ptr == end ? value : 0;
+}
+
 void parse_entry(const ByteSource& source, const std::vector<std::string_view>& words, PlyHeader& header,
                  bool& has_format) {
-  const std::string_view keyword = words.front();
-  if (keyword == "comment" || keyword == "obj_info") return;
+  const std::string keyword = lower_case(words.front());
+  if (keyword == "comment") return;
+  if (keyword == "obj_info") return parse_grid_size(words, header);
   if (keyword == "format") {
     header.format = parse_format(source, words);
     has_format = true;
@@ -100,7 +122,7 @@ void parse_entry(const ByteSource& source, const std::vector<std::string_view>& 
     if (header.elements.empty()) throw source.line_error("expected an element before its first property");
     header.elements.back().properties.push_back(parse_property(source, words));
   } else {
-    throw source.line_error("expected a PLY header entry or end_header, found " + quoted(keyword));
+    throw source.line_error("expected a PLY header entry or end_header, found " + quoted(words.front()));
   }
 }
 
@@ -113,7 +135,7 @@ PlyHeader read_ply_header(ByteSource& source) {
   next_row(source, words);  // "ply", by which the file was recognized
   for (;;) {
     if (!next_row(source, words)) throw source.line_error("expected end_header, found the end of the file");
-    if (words.front() == "end_header") break;
+    if (lower_case(words.front()) == "end_header") break;
     parse_entry(source, words, header, has_format);
   }
   if (!has_format) throw source.line_error("expected a format line before end_header, found none");

@@ -29,9 +29,12 @@ struct PlyElement {
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
+  std::uint64_t columns = 0;  // of a range grid, by obj_info; 0 = not said
+  std::uint64_t rows = 0;
 };
 
-// Reads up to and with the end_header line. The names point into the source. Throws InputError.
+// Keywords and types count in any case. Reads up to and with the end_header line. The names point into the source.
+// Throws InputError.
 PlyHeader read_ply_header(ByteSource& source);
 
 }  // namespace shortshot_bench

@@ -1,82 +1,43 @@
 #include "ply_reader.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
 #include <string>
-#include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "lower_case.hpp"
+#include "make_cloud.hpp"
 #include "ply_header.hpp"
 #include "ply_values.hpp"
+#include "point_table.hpp"
+#include "range_grid.hpp"
 #include "scalar_type.hpp"
 #include "text_rows.hpp"
 
 namespace shortshot_bench {
 namespace {
 
-// What a vertex property is to the cloud: x y z red green blue intensity, or nothing.
-constexpr std::size_t role_count = 7;
-constexpr std::size_t first_color_role = 3;
-constexpr std::size_t intensity_role = 6;
-constexpr std::size_t no_role = role_count;
+bool is_called(const PlyElement& element, const char* name) { return lower_case(element.name) == name; }
 
-struct VertexLayout {
-  std::vector<std::size_t> roles;  // of each property
-  std::array<bool, role_count> is_given{};
-  bool has_color = false;
-
-  bool has_intensity() const { return is_given[intensity_role]; }
-};
-
-std::size_t role_of_name(std::string_view name) {
-  constexpr std::string_view diffuse = "diffuse_";
-  constexpr std::array<std::string_view, intensity_role> names{"x", "y", "z", "red", "green", "blue"};
-  constexpr std::array<std::string_view, 3> short_names{"r", "g", "b"};
-  // CloudCompare puts "scalar_" before the names of its fields, and calls this one "Intensity".
-  for (const char* const intensity : {"intensity", "scalar_intensity", "scalar_Intensity"}) {
-    if (name == intensity) return intensity_role;
-  }
-  if (name.substr(0, diffuse.size()) == diffuse) name.remove_prefix(diffuse.size());
-  const auto found = std::find(names.begin(), names.end(), name);
-  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  const auto color = std::find(short_names.begin(), short_names.end(), name);
-  if (color == short_names.end()) return no_role;
-  return first_color_role + static_cast<std::size_t>(color - short_names.begin());
+bool is_range_grid(const PlyElement& element) {
+  return is_called(element, "range_grid") && element.properties.size() == 1 && element.properties[0].is_list;
 }
 
-VertexLayout find_layout(const ByteSource& source, const PlyElement& vertices) {
-  VertexLayout layout;
+PointTable table_of(const ByteSource& source, const PlyElement& vertices, bool is_text) {
+  PointTable table;
+  table.width = static_cast<std::size_t>(vertices.count);
   for (const PlyProperty& property : vertices.properties) {
-    std::size_t role = property.is_list ? no_role : role_of_name(property.name);
-    if (role != no_role && layout.is_given[role]) role = no_role;  // of two of a name the first counts
-    if (role != no_role) layout.is_given[role] = true;
-    if (role < first_color_role && property.type.kind != ScalarKind::floating) {
-      throw InputError::at_line(source.path(), vertices.line,
-                                "expected type float or double for property " + quoted(property.name) +
-                                    " of element 'vertex', found a whole number type");
-    }
-    layout.roles.push_back(role);
+    Channel channel;
+    channel.name = property.name;
+    channel.type = property.type;
+    channel.count = property.is_list ? 0 : 1;
+    channel.is_text = is_text;
+    table.channels.push_back(channel);
   }
-  for (std::size_t axis = 0; axis < first_color_role; ++axis) {
-    if (!layout.is_given[axis]) {
-      throw InputError::at_line(source.path(), vertices.line,
-                                std::string("expected a property ") + "xyz"[axis] + " in element 'vertex', found none");
-    }
-  }
-  layout.has_color = std::all_of(layout.is_given.begin(), layout.is_given.begin() + intensity_role,
-                                 [](bool is_given) { return is_given; });
-  return layout;
-}
-
-// Floats are 0 to 1, 16-bit values 0 to 65535, all others 0 to 255; what is outside is clamped.
-std::uint8_t to_color(double value, ScalarType type) {
-  const bool is_wide = type.kind == ScalarKind::unsigned_integer && type.size_bytes == 2;
-  if (type.kind == ScalarKind::floating) value *= 255;
-  if (is_wide) value /= 257;   // 65535 / 255
-  if (!(value > 0)) return 0;  // NaN too
-  return static_cast<std::uint8_t>(std::lround(std::min(value, 255.0)));
+  assign_roles(table, source.path(), vertices.line, "property", " in element 'vertex'");
+  return table;
 }
 
 template <typename Values>
@@ -90,47 +51,110 @@ void skip_element(Values& values, const PlyElement& element) {
   }
 }
 
-template <typename Values>
-RgbdCloud read_vertices(Values& values, const PlyElement& vertices, const VertexLayout& layout) {
-  values.expect_room_for_rows(vertices);
-  RgbdCloud cloud;
-  cloud.width = static_cast<std::size_t>(vertices.count);
-  cloud.height = 1;
-  cloud.xyz.resize(3 * cloud.width);
-  if (layout.has_color) cloud.rgb.resize(3 * cloud.width);
-  if (layout.has_intensity()) cloud.intensity.resize(cloud.width);
-  for (std::size_t point = 0; point < cloud.width; ++point) {
+void read_vertices(PlyTextValues& values, ByteSource&, const PlyElement& vertices, PointTable& table) {
+  std::vector<Channel*> used;
+  for (Channel& channel : table.channels) {
+    if (table.uses(channel)) used.push_back(&channel);
+  }
+  table.own_values.resize(used.size() * table.size());
+  double* out = table.own_values.data();
+  for (std::size_t point = 0; point < table.size(); ++point) {
     values.begin_row(vertices, point);
-    for (std::size_t i = 0; i < vertices.properties.size(); ++i) {
-      const PlyProperty& property = vertices.properties[i];
-      const std::size_t role = layout.roles[i];
-      if (role < first_color_role) {
-        cloud.xyz[3 * point + role] = to_float(values.read(property));
-      } else if (role == intensity_role) {
-        cloud.intensity[point] = to_float(values.read(property));
-      } else if (role != no_role && layout.has_color) {
-        cloud.rgb[3 * point + role - first_color_role] = to_color(values.read(property), property.type);
+    for (std::size_t i = 0; i < table.channels.size(); ++i) {
+      if (table.uses(table.channels[i])) {
+        *out++ = values.read(vertices.properties[i]);
       } else {
-        values.skip(property);
+        values.skip(vertices.properties[i]);
       }
     }
     values.end_row();
+  }
+  set_text_columns(table, used);
+}
+
+// With lists among them vertices are of many sizes: all but the lists is copied.
+const char* bytes_without_lists(PlyBinaryValues& values, const PlyElement& vertices, PointTable& table) {
+  for (std::size_t point = 0; point < table.size(); ++point) {
+    for (const PlyProperty& property : vertices.properties) {
+      if (property.is_list) {
+        values.skip(property);
+      } else {
+        const std::string_view bytes = values.read_bytes(property);
+        table.own_bytes.insert(table.own_bytes.end(), bytes.begin(), bytes.end());
+      }
+    }
+  }
+  return table.own_bytes.data();
+}
+
+void read_vertices(PlyBinaryValues& values, ByteSource& source, const PlyElement& vertices, PointTable& table) {
+  bool has_lists = false;
+  std::size_t row_bytes = 0;
+  for (const PlyProperty& property : vertices.properties) {
+    has_lists = has_lists || property.is_list;
+    if (!property.is_list) row_bytes += property.type.size_bytes;
+  }
+  const char* const first = has_lists ? bytes_without_lists(values, vertices, table)
+                                      : source.take(vertices.count * row_bytes, "vertices").data();
+  std::size_t offset = 0;
+  for (std::size_t i = 0; i < table.channels.size(); ++i) {
+    const PlyProperty& property = vertices.properties[i];
+    if (property.is_list) continue;
+    table.channels[i].values = {first + offset, row_bytes, property.type, values.order()};
+    offset += property.type.size_bytes;
+  }
+}
+
+// Whether the file is organized like the scanner's image, and how.
+struct Grid {
+  RangeGrid cells;
+  bool is_given = false;
+};
+
+RgbdCloud organized(RgbdCloud cloud, const PlyHeader& header, const Grid& grid) {
+  const std::uint64_t cells = header.columns * header.rows;  // of 32 bits each
+  const auto width = static_cast<std::size_t>(header.columns);
+  const auto height = static_cast<std::size_t>(header.rows);
+  if (grid.is_given && cells != 0 && cells == grid.cells.size()) return arranged(cloud, grid.cells, width, height);
+  if (grid.is_given) {
+    cloud.notes.push_back("its range grid of " + std::to_string(grid.cells.size()) +
+                          " cells is ignored: obj_info num_cols and num_rows do not say that many");
+  } else if (cells != 0 && cells == cloud.size() && height > 1) {
+    cloud.width = width;
+    cloud.height = height;
+    cloud.notes.push_back("organized by obj_info, " + std::to_string(width) + " x " + std::to_string(height));
   }
   return cloud;
 }
 
 template <typename Values>
-RgbdCloud read_body(Values values, const ByteSource& source, const PlyHeader& header) {
+RgbdCloud read_body(Values values, ByteSource& source, const PlyHeader& header) {
   const auto vertices = std::find_if(header.elements.begin(), header.elements.end(),
-                                     [](const PlyElement& element) { return element.name == "vertex"; });
+                                     [](const PlyElement& element) { return is_called(element, "vertex"); });
   if (vertices == header.elements.end()) {
     throw source.line_error("expected an element 'vertex' before end_header, found none");
   }
-  const VertexLayout layout = find_layout(source, *vertices);
-  for (auto element = header.elements.begin(); element != vertices; ++element) {
-    skip_element(values, *element);
+  const auto range_grid = std::find_if(header.elements.begin(), header.elements.end(), is_range_grid);
+  PointTable table = table_of(source, *vertices, std::is_same_v<Values, PlyTextValues>);
+  Grid grid;
+  std::string ignored;
+  const auto last = range_grid == header.elements.end() ? vertices : std::max(vertices, range_grid);
+  for (auto element = header.elements.begin(); element != header.elements.end(); ++element) {
+    if (element == vertices) {
+      values.expect_room_for_rows(*vertices);
+      read_vertices(values, source, *vertices, table);
+    } else if (element == range_grid) {
+      grid = {read_range_grid(values, *element, static_cast<std::size_t>(vertices->count)), true};
+    } else {
+      if (element < last) skip_element(values, *element);
+      if (element->count == 0 || element->properties.empty()) continue;
+      ignored += ignored.empty() ? "elements " : ", ";
+      ignored += std::string(element->name) + " (" + std::to_string(element->count) + ")";
+    }
   }
-  return read_vertices(values, *vertices, layout);
+  if (!ignored.empty()) table.unused.push_back(ignored);
+  if (last + 1 == header.elements.end()) note_rest_of_file(source, table);
+  return organized(make_cloud(table), header, grid);
 }
 
 }  // namespace

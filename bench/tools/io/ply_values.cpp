@@ -27,19 +27,25 @@ Word PlyTextValues::next_word(std::string_view what) {
 }
 
 double PlyTextValues::read(const PlyProperty& property) {
-  return static_cast<double>(expect_float(source_, next_word(property.name), property.name));
+  return expect_number(source_, next_word(property.name), property.name);
+}
+
+std::uint64_t PlyTextValues::read_length(const PlyProperty& list) {
+  const std::uint64_t length = expect_count(source_, next_word(list.name), list.name, 0, ~std::uint64_t{0});
+  const std::size_t available = words_.size() - next_;
+  if (length > available) {
+    throw source_.line_error("expected " + std::to_string(length) + " values in list " + quoted(list.name) +
+                             ", found only " + std::to_string(available));
+  }
+  return length;
 }
 
 void PlyTextValues::skip(const PlyProperty& property) {
-  const Word first = next_word(property.name);
-  if (!property.is_list) return;
-  const std::uint64_t length = expect_count(source_, first, property.name, 0, ~std::uint64_t{0});
-  const std::size_t available = words_.size() - next_;
-  if (length > available) {
-    throw source_.line_error("expected " + std::to_string(length) + " values in list " + quoted(property.name) +
-                             ", found only " + std::to_string(available));
+  if (property.is_list) {
+    next_ += static_cast<std::size_t>(read_length(property));
+  } else {
+    next_word(property.name);
   }
-  next_ += static_cast<std::size_t>(length);
 }
 
 void PlyTextValues::end_row() {
@@ -62,25 +68,31 @@ void PlyBinaryValues::expect_room_for_rows(const PlyElement& element) const {
 }
 
 double PlyBinaryValues::read(const PlyProperty& property) {
-  const std::string_view bytes = source_.take(property.type.size_bytes, "a property value");
-  return load_scalar(bytes.data(), property.type, order_);
+  return load_scalar(read_bytes(property).data(), property.type, order_);
+}
+
+std::string_view PlyBinaryValues::read_bytes(const PlyProperty& property) {
+  return source_.take(property.type.size_bytes, "a property value");
+}
+
+std::uint64_t PlyBinaryValues::read_length(const PlyProperty& list) {
+  const std::size_t count_begin = source_.offset_bytes();
+  const std::string_view bytes = source_.take(list.count_type.size_bytes, "a list count");
+  const double length = load_scalar(bytes.data(), list.count_type, order_);
+  if (length < 0) {
+    throw InputError::at_byte(source_.path(), count_begin,
+                              "expected a count of 0 or more for list " + quoted(list.name) + ", found " +
+                                  std::to_string(static_cast<std::int64_t>(length)));
+  }
+  return static_cast<std::uint64_t>(length);  // a count has at most 4 bytes: exact
 }
 
 void PlyBinaryValues::skip(const PlyProperty& property) {
-  if (!property.is_list) {
-    source_.take(property.type.size_bytes, "a property value");
-    return;
+  if (property.is_list) {
+    source_.take(read_length(property) * property.type.size_bytes, "list values");
+  } else {
+    read_bytes(property);
   }
-  const std::size_t count_begin = source_.offset_bytes();
-  const std::string_view bytes = source_.take(property.count_type.size_bytes, "a list count");
-  const double length = load_scalar(bytes.data(), property.count_type, order_);
-  if (length < 0) {
-    throw InputError::at_byte(source_.path(), count_begin,
-                              "expected a count of 0 or more for list " + quoted(property.name) + ", found " +
-                                  std::to_string(static_cast<std::int64_t>(length)));
-  }
-  // A count has at most 4 bytes, so the double is exact and the product cannot overflow.
-  source_.take(static_cast<std::uint64_t>(length) * property.type.size_bytes, "list values");
 }
 
 }  // namespace shortshot_bench

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,7 +24,9 @@ class PlyTextValues {
   void begin_row(const PlyElement& element, std::uint64_t row);
   double read(const PlyProperty& property);
   void skip(const PlyProperty& property);
-  void end_row();  // a row is a line of its own
+  std::uint64_t read_length(const PlyProperty& list);  // its values are to be read or skipped, one by one
+  void end_row();                                      // a row is a line of its own
+  InputError error(const std::string& what) const { return source_.line_error(what); }
 
  private:
   Word next_word(std::string_view what);
@@ -40,8 +43,12 @@ class PlyBinaryValues {
   void expect_room_for_rows(const PlyElement& element) const;
   void begin_row(const PlyElement&, std::uint64_t) {}
   double read(const PlyProperty& property);
+  std::string_view read_bytes(const PlyProperty& property);
   void skip(const PlyProperty& property);
+  std::uint64_t read_length(const PlyProperty& list);
   void end_row() {}
+  InputError error(const std::string& what) const { return source_.byte_error(what); }
+  ByteOrder order() const { return order_; }
 
  private:
   ByteSource& source_;

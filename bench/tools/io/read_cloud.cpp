@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "byte_source.hpp"
+#include "lower_case.hpp"
 #include "pcd_header.hpp"
 #include "pcd_reader.hpp"
 #include "ply_reader.hpp"
@@ -12,7 +13,14 @@
 namespace shortshot_bench {
 namespace {
 
-bool is_ply(std::string_view bytes) { return bytes.substr(0, 4) == "ply\n" || bytes.substr(0, 4) == "ply\r"; }
+bool is_ply(ByteSource& source) {
+  std::vector<std::string_view> words;
+  const bool found = next_row(source, words) && words.size() == 1 && lower_case(words.front()) == "ply";
+  source.rewind();
+  return found;
+}
+
+bool is_utf16(std::string_view bytes) { return bytes.substr(0, 2) == "\xff\xfe" || bytes.substr(0, 2) == "\xfe\xff"; }
 
 // PCD has no magic bytes: a comment usually says ".PCD", and the first entry is one of the header's.
 bool is_pcd(ByteSource& source) {
@@ -21,7 +29,7 @@ bool is_pcd(ByteSource& source) {
   std::vector<std::string_view> words;
   while (!found && is_comment && next_row(source, words)) {
     is_comment = words.front().front() == '#';
-    found = is_comment ? words.size() > 1 && words[1] == ".PCD" : is_pcd_keyword(words.front());
+    found = is_comment ? words.size() > 1 && lower_case(words[1]) == ".pcd" : is_pcd_keyword(words.front());
   }
   source.rewind();
   return found;
@@ -31,7 +39,10 @@ bool is_pcd(ByteSource& source) {
 
 RgbdCloud read_cloud(const std::string& path) {
   ByteSource source(path);
-  if (is_ply(source.rest())) return read_ply(source);
+  if (is_utf16(source.rest())) {
+    throw source.byte_error("expected ASCII or UTF-8, found the byte order mark of UTF-16: save the text anew");
+  }
+  if (is_ply(source)) return read_ply(source);
   if (is_pcd(source)) return read_pcd(source);
   const std::string expected = "expected a PLY file ('ply') or a PCD header ('VERSION', 'FIELDS'), found ";
   std::string_view line;

@@ -5,7 +5,10 @@
 #include <charconv>
 #include <cstddef>
 #include <cstdlib>
+#include <limits>
 #include <system_error>
+
+#include "lower_case.hpp"
 
 namespace shortshot_bench {
 namespace {
@@ -27,6 +30,22 @@ Integer expect_in_range(const ByteSource& source, Word word, std::string_view wh
                      what);
   }
   return value;
+}
+
+// Visual C++ before 2015 printed what is not finite as 1.#QNAN, -1.#IND00, 1.#INF; rounded, as 1.#J and the like, which
+// tells no infinity from a NaN.
+bool is_of_old_windows(std::string_view text, double& value) {
+  const bool is_negative = text.substr(0, 1) == "-";
+  if (is_negative || text.substr(0, 1) == "+") text.remove_prefix(1);
+  const auto is_letter_or_digit = [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9');
+  };
+  if (text.size() < 4 || text.substr(0, 3) != "1.#") return false;
+  if (!std::all_of(text.begin() + 3, text.end(), is_letter_or_digit)) return false;
+  value = std::numeric_limits<double>::quiet_NaN();
+  if (lower_case(text.substr(3, 3)) == "inf") value = std::numeric_limits<double>::infinity();
+  if (is_negative) value = -value;
+  return true;
 }
 
 }  // namespace
@@ -58,8 +77,8 @@ bool next_row(ByteSource& source, std::vector<std::string_view>& words) {
   return false;
 }
 
-float expect_float(const ByteSource& source, Word word, std::string_view what) {
-  // strtof and not from_chars: GCC before 11 has no from_chars for floats. It reads up to a terminating
+double expect_number(const ByteSource& source, Word word, std::string_view what) {
+  // strtod and not from_chars: GCC before 11 has no from_chars for floats. It reads up to a terminating
   // zero, so it gets a bounded copy. It follows the C locale's decimal point, which is "." unless a program
   // calls setlocale; if one did, "0.5" would be refused here and not misread.
   std::array<char, 128> copy{};
@@ -67,10 +86,9 @@ float expect_float(const ByteSource& source, Word word, std::string_view what) {
   if (fits) std::copy(word.text.begin(), word.text.end(), copy.begin());
   char* end = copy.data();
   // errno is not asked: ERANGE would refuse the denormals in which colors are packed.
-  const float value = std::strtof(copy.data(), &end);
-  if (!fits || word.text.empty() || end != copy.data() + word.text.size()) {
-    throw unexpected(source, word, "a number", what);
-  }
+  double value = std::strtod(copy.data(), &end);
+  const bool is_all = fits && !word.text.empty() && end == copy.data() + word.text.size();
+  if (!is_all && !is_of_old_windows(word.text, value)) throw unexpected(source, word, "a number", what);
   return value;
 }
 

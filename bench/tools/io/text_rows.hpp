@@ -26,8 +26,9 @@ std::vector<std::string_view> split_words(std::string_view line);
 bool next_row(ByteSource& source, std::vector<std::string_view>& words);
 
 // Throw InputError unless the whole word is such a number; `what` names it in the message.
-// Floats: "nan", "inf", denormals and values beyond the range (they become infinite) are allowed.
-float expect_float(const ByteSource& source, Word word, std::string_view what);
+// Numbers: "nan", "inf" in every spelling that C libraries print, denormals and values beyond the range (they become
+// infinite) are allowed.
+double expect_number(const ByteSource& source, Word word, std::string_view what);
 std::int64_t expect_integer(const ByteSource& source, Word word, std::string_view what, std::int64_t lowest,
                             std::int64_t highest);
 std::uint64_t expect_count(const ByteSource& source, Word word, std::string_view what, std::uint64_t lowest,

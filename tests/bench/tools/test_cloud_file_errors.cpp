@@ -83,9 +83,8 @@ TEST_CASE("cloud file errors: PCD header lines") {
        {{"SIZE 4 4", "SIZE 4 2"}, ":3: expected SIZE 1, 2, 4 or 8 (4 or 8 for TYPE F), found '2' for TYPE F"},
        {{"4 2\n", "4 3\n"}, ":3: expected SIZE 1, 2, 4 or 8 (4 or 8 for TYPE F), found '3' for TYPE I"},
        {{"4 2\n", "4 16\n"}, ":3: expected a whole number from 1 to 8 for SIZE, found '16'"},
-       {{"SIZE 4 4 4 4", "SIZE 4 4 4 8"}, ":2: expected SIZE 4 and COUNT 1 for field rgb, found SIZE 8 and COUNT 1"},
        {{"U I", "U Q"}, ":4: expected I, U or F as a TYPE, found 'Q'"},
-       {{"TYPE F", "TYPE I"}, ":2: expected TYPE F and COUNT 1 for field x, found another"},
+       {{"COUNT 1", "COUNT 2"}, ":2: expected COUNT 1 for field x, found COUNT 2"},
        {{"COUNT 1", "COUNT -1"}, ":5: expected a whole number from 1 to 4294967295 for COUNT, found '-1'"},
        {{"COUNT 1", "COUNT 0"}, ":5: expected a whole number from 1 to 4294967295 for COUNT, found '0'"},
        {{"COUNT 1 1 1 1 2", "COUNT 1 1 1 1 4294967295"},
@@ -108,8 +107,6 @@ TEST_CASE("cloud file errors: PCD header lines") {
 }
 
 TEST_CASE("cloud file errors: PCD intensities") {
-  const std::string with_intensity = changed(ascii_pcd, {"rgb n", "rgb intensity"});
-  CHECK(error_of(with_intensity) == "FILE:2: expected COUNT 1 for field intensity, found COUNT 2");
   const std::string good =
       "FIELDS x y z intensity\nSIZE 4 4 4 1\nTYPE F F F U\nPOINTS 2\nDATA ascii\n1 2 3 255\n1 2 3 0\n";
   check_messages(good,
@@ -187,8 +184,7 @@ TEST_CASE("cloud file errors: PLY header lines") {
         ":5: expected a whole number from 0 to 18446744073709551615 for the element count, found "
         "'99999999999999999999'"},
        {{"float y", "half y"}, ":7: expected a PLY type such as uchar or float, found 'half'"},
-       {{"float y", "int y"},
-        ":5: expected type float or double for property 'y' of element 'vertex', found a whole number type"},
+       {{"list char", "list int64"}, ":4: expected a type of at most 4 bytes for a list count, found 'int64'"},
        {{"float y", "float a"}, ":5: expected a property y in element 'vertex', found none"},
        {{"property float z", "z"}, ":8: expected a PLY header entry or end_header, found 'z'"},
        {{"end_header\n2 7 8\n1 2 3\n4 5 6\n", ""}, ":8: expected end_header, found the end of the file"}});
