@@ -42,6 +42,9 @@ RgbdCloud scaled(RgbdCloud cloud, double meters) {
 
 RgbdCloud read_colored_cloud(const std::string& path) {
   RgbdCloud cloud = read_cloud(path);
+  if (cloud.is_shifted()) {  // each cloud by its own origin: no known pose would fit
+    throw InputError::about(path, "expected coordinates that floats are fine enough for, found some far away");
+  }
   if (!cloud.has_colors()) throw InputError::about(path, "expected a cloud with colors, found none");
   return cloud;
 }

@@ -31,9 +31,7 @@ bool is_at(const RgbdCloud& cloud, std::size_t point, const std::array<float, 3>
 }
 
 std::uint32_t hash(const Place& place) {
-  std::uint32_t h = 0;
-  for (const std::uint32_t bits : place) h = (h ^ bits ^ bits >> 15) * 0x9e3779b1u;
-  return h ^ h >> 16;
+  return place[0] * 0x9e3779b1u + place[1] * 0x85ebca77u + place[2] * 0xc2b2ae3du;
 }
 
 /// The share of points that are in the place of an earlier one. Of large clouds those places are compared whose hash is

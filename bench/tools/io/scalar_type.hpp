@@ -54,7 +54,7 @@ inline double load_scalar(const char* bytes, ScalarType type, ByteOrder order) {
 // A plain cast of a finite double beyond the float range is undefined; here it becomes an infinity.
 inline float to_float(double value) {
   constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
-  if (std::isfinite(value) && std::abs(value) > largest) {
+  if (std::abs(value) > largest && std::isfinite(value)) {
     return std::copysign(std::numeric_limits<float>::infinity(), value > 0 ? 1.0F : -1.0F);
   }
   return static_cast<float>(value);

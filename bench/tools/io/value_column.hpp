@@ -9,6 +9,14 @@
 
 namespace shortshot_bench {
 
+/// Of a table of doubles of this program's own.
+inline ByteOrder host_order() {
+  const std::uint16_t one = 1;
+  unsigned char low = 0;
+  std::memcpy(&low, &one, 1);
+  return low == 1 ? ByteOrder::little_endian : ByteOrder::big_endian;
+}
+
 /// Borrowed: the file's own bytes where they are in rows of one size, else a table that a reader made of them.
 struct ValueColumn {
   const char* first = nullptr;
@@ -19,15 +27,15 @@ struct ValueColumn {
   const char* bytes(std::size_t point) const { return first + point * stride_bytes; }
   double at(std::size_t point) const { return load_scalar(bytes(point), type, order); }
   std::uint64_t bits(std::size_t point) const { return load_bits(bytes(point), type.size_bytes, order); }
-};
 
-/// Of a table of doubles of this program's own.
-inline ByteOrder host_order() {
-  const std::uint16_t one = 1;
-  unsigned char low = 0;
-  std::memcpy(&low, &one, 1);
-  return low == 1 ? ByteOrder::little_endian : ByteOrder::big_endian;
-}
+  /// The same of a column of 4 bytes.
+  std::uint32_t bits32(std::size_t point) const {
+    if (order != host_order()) return static_cast<std::uint32_t>(load_bits(bytes(point), 4, order));
+    std::uint32_t bits = 0;
+    std::memcpy(&bits, bytes(point), sizeof bits);
+    return bits;
+  }
+};
 
 /// Calls use(point, value) with the value of each point as a double.
 template <typename Use>

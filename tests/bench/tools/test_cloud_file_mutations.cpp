@@ -13,6 +13,22 @@ using shortshot_bench::RgbdCloud;
 
 namespace {
 
+// A vertex in every second cell of a range grid.
+std::string range_grid_ply(const std::string& format) {
+  using cloud_file_test::cell;
+  std::vector<cloud_file_test::Row> rows;
+  for (const double x : {1.0, 2e6, 3.0})
+    rows.push_back({cell(x), cell(x), cell(0.5F), cell(0.25F), cell(0.0F), cell(2.0F)});
+  for (std::int32_t i = 0; i < 3; ++i) {
+    rows.push_back({cell(std::uint8_t{1}), cell(i)});
+    rows.push_back({cell(std::uint8_t{0})});
+  }
+  return "ply\nformat " + format + " 1.0\nobj_info num_cols 2\nobj_info num_rows 3\nelement vertex 3\n" +
+         "property double x\nproperty double y\nproperty float z\nproperty float nx\nproperty float ny\n" +
+         "property float nz\nelement range_grid 6\nproperty list uchar int vertex_indices\nend_header\n" +
+         (format == "ascii" ? cloud_file_test::joined_text(rows) : cloud_file_test::joined_bytes(rows));
+}
+
 std::vector<std::string> sample_files() {
   return {sample_pcd("ascii", 'F'),
           sample_pcd("ascii", 'I'),
@@ -20,7 +36,9 @@ std::vector<std::string> sample_files() {
           sample_pcd("binary_compressed", 'U'),
           sample_ply("ascii"),
           sample_ply("binary_little_endian"),
-          sample_ply("binary_big_endian")};
+          sample_ply("binary_big_endian"),
+          range_grid_ply("ascii"),
+          range_grid_ply("binary_little_endian")};
 }
 
 // Empty if all is well. The file is one path over and over: only its content matters.
@@ -31,6 +49,7 @@ std::string problem_with(const std::string& path, const std::string& bytes) {
     if (cloud.xyz.size() != 3 * cloud.width * cloud.height) return "xyz has another size than the cloud";
     if (!cloud.intensity.empty() && cloud.intensity.size() != cloud.size())
       return "intensity has another size than xyz";
+    if (!cloud.normals.empty() && cloud.normals.size() != cloud.xyz.size()) return "normals have another size than xyz";
     if (!cloud.rgb.empty() && cloud.rgb.size() != cloud.xyz.size()) return "rgb has another size than xyz";
   } catch (const shortshot_bench::InputError& error) {
     if (std::string(error.what()).rfind(path + ":", 0) != 0) return "the message does not name the file";

@@ -38,6 +38,7 @@ TEST_CASE("the demo's command line: good ones go on, help ends well, bad ones en
   CHECK(exit_code_of({}) == -1);
   CHECK(exit_code_of({"a.pcd", "b.ply", "--descriptor", "ssh32", "--radius", "0.1", "--threads", "2"}) == -1);
   CHECK(exit_code_of({"a.pcd", "--out", "x.npy", "--search", "brute", "--check", "--towards-camera"}) == -1);
+  CHECK(exit_code_of({"a.pcd", "--drop-zeros"}) == -1);
   CHECK(exit_code_of({"--help"}) == 0);
   CHECK(exit_code_of({"--descriptor", "intensity336"}) == -1);
   CHECK(exit_code_of({"a.pcd", "--descriptor", "cshot1344", "--normal-radius", "0.02"}) == -1);
@@ -123,6 +124,27 @@ TEST_CASE(
   options.normal_radius = 0.02f;
   CHECK_FALSE(has_normals_within(0.015f));
   CHECK(has_normals_within(0.02f));
+}
+
+TEST_CASE("the demo's normals are those of the cloud, where it has them and no radius is asked for") {
+  RgbdCloud scene = small_scene();
+  scene.normals.assign(scene.xyz.size(), 0.0f);
+  for (std::size_t i = 0; i < scene.size(); ++i) scene.normals[3 * i + 2] = -1.0f;
+  DemoOptions options;
+  for (const char* descriptor : {"shot352", "cshot1344"}) {
+    options.descriptor = descriptor;
+    options.normal_radius.reset();
+    const DemoResult result = run_demo(scene, options);
+    CHECK(result.normals_of_file);
+    REQUIRE(result.normals.size() == scene.size());
+    CHECK(result.normals[7].z == -1.0f);
+    options.normal_radius = 0.01f;
+    const DemoResult estimated = run_demo(scene, options);
+    CHECK_FALSE(estimated.normals_of_file);
+    CHECK(estimated.values != result.values);
+  }
+  options.descriptor = "ssh96";
+  CHECK(run_demo(scene, options).normals.empty());
 }
 
 TEST_CASE("the layout is told in the order of the values") {
