@@ -120,8 +120,9 @@ void write_result(const RgbdCloud& cloud, const DemoOptions& options, const Demo
       comments.insert(comments.begin(), "normals within " + std::to_string(normal_radius(options)) + " m");
     }
     if (cloud.is_shifted()) {
-      comments.push_back("x y z are from the origin " + std::to_string(cloud.origin[0]) + " " +
-                         std::to_string(cloud.origin[1]) + " " + std::to_string(cloud.origin[2]) + " of the cloud");
+      comments.insert(comments.begin(), "x y z are from the origin " + std::to_string(cloud.origin[0]) + " " +
+                                            std::to_string(cloud.origin[1]) + " " + std::to_string(cloud.origin[2]) +
+                                            " of the cloud");
     }
     comments.insert(comments.end(), result.layout.begin(), result.layout.end());
     write_descriptor_pcd(options.out, positions, result.values.data(), result.size, comments);

@@ -1,6 +1,7 @@
 #include "make_cloud.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <string>
 #include <utility>
@@ -56,6 +57,22 @@ void read_intensities(const PointTable& table, RgbdCloud& cloud) {
   if (channel->name != "intensity") cloud.notes.push_back("intensities are " + channel->name);
 }
 
+/// A channel that says the same of all points is usable and yet of no use.
+template <typename Value>
+bool is_constant(const std::vector<Value>& values, std::size_t per_point) {
+  return values.size() > per_point &&
+         std::equal(values.begin() + static_cast<std::ptrdiff_t>(per_point), values.end(), values.begin());
+}
+
+void note_constant_channels(RgbdCloud& cloud) {
+  if (is_constant(cloud.rgb, 3)) {
+    cloud.notes.push_back("all points have one color, " + std::to_string(cloud.rgb[0]) + " " +
+                          std::to_string(cloud.rgb[1]) + " " + std::to_string(cloud.rgb[2]));
+  }
+  if (is_constant(cloud.intensity, 1)) cloud.notes.push_back("all points have one intensity");
+  if (is_constant(cloud.normals, 3)) cloud.notes.push_back("all points have one normal");
+}
+
 /// The channels that nobody looked at, each name once.
 void list_unused(const PointTable& table, std::vector<std::string>& ignored) {
   for (const Channel& channel : table.channels) {
@@ -91,6 +108,7 @@ RgbdCloud make_cloud(PointTable& table) {
   read_colors(table, cloud, ignored);
   read_intensities(table, cloud);
   read_normals(table, cloud, ignored);
+  note_constant_channels(cloud);
   note_repeated_points(cloud);
   list_unused(table, ignored);
   const std::string channels = joined(ignored, ", ");

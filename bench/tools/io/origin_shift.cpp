@@ -33,7 +33,8 @@ double rounded_to_extent(double value, double extent) {
 }
 
 bool is_measured(const std::array<double, 3>& p) {
-  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]) && (p[0] != 0 || p[1] != 0 || p[2] != 0);
+  const auto fits = [](double value) { return std::isfinite(to_float(value)); };
+  return fits(p[0]) && fits(p[1]) && fits(p[2]) && (p[0] != 0 || p[1] != 0 || p[2] != 0);
 }
 
 std::array<Axis, 3> sampled_axes(const PointTable& table) {
@@ -56,10 +57,11 @@ OriginShift find_origin(const PointTable& table) {
   OriginShift shift;
   const std::array<Axis, 3> axes = sampled_axes(table);
   const double extent = std::max({axes[0].extent, axes[1].extent, axes[2].extent});
-  if (!(extent > 0)) return shift;  // one point, or all in one place: nothing to tell
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double distance = std::abs(axes[axis].middle);
-    if (distance <= most_extents * extent && !(distance >= most_units && distance >= extent)) continue;
+    const bool is_far =
+        (extent > 0 && distance > most_extents * extent) || (distance >= most_units && distance >= extent);
+    if (!is_far) continue;
     const ScalarType& type = table.channel(static_cast<Role>(axis))->values.type;
     shift.spacing = std::max(shift.spacing, std::exp2(std::floor(std::log2(distance)) - 23));
     if (type.kind == ScalarKind::floating && type.size_bytes == 4) {

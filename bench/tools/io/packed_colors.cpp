@@ -55,7 +55,8 @@ Facts facts_of(const Channel& channel, std::size_t points) {
     const double value = channel.values.at(point);
     facts.not_a_number += std::isnan(value) ? 1 : 0;
     facts.fit_32_bits = facts.fit_32_bits && value >= -2147483648.0 && value <= 4294967295.0;
-    facts.are_denormals = facts.are_denormals && value >= 0 && value < double{std::numeric_limits<float>::min()};
+    facts.are_denormals =
+        facts.are_denormals && value >= 0 && value < static_cast<double>(std::numeric_limits<float>::min());
     facts.are_rgb_numbers =
         facts.are_rgb_numbers && value >= 0 && value <= double{0xffffff} && value == std::floor(value);
     facts.have_one_alpha = facts.have_one_alpha && packed_bits(channel, point) >> 24 == first_alpha;

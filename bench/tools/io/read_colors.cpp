@@ -17,6 +17,7 @@ struct Facts {
   double largest = 0;
   double smallest = 0;
   std::size_t not_finite = 0;
+  bool are_whole = true;
 };
 
 Facts facts_of(const std::array<const Channel*, 3>& colors, std::size_t points) {
@@ -28,6 +29,7 @@ Facts facts_of(const std::array<const Channel*, 3>& colors, std::size_t points) 
       } else {
         facts.largest = std::max(facts.largest, value);
         facts.smallest = std::min(facts.smallest, value);
+        facts.are_whole = facts.are_whole && value == std::floor(value);
       }
     });
   }
@@ -56,8 +58,9 @@ std::string number(double value) {
 
 void read_separate(const std::array<const Channel*, 3>& colors, RgbdCloud& cloud, std::vector<std::string>& ignored) {
   const std::size_t points = cloud.size();
-  const ScalarType type = type_of(colors);
   const Facts facts = facts_of(colors, points);
+  ScalarType type = type_of(colors);
+  if (!facts.are_whole) type = {ScalarKind::floating, std::max<std::uint8_t>(type.size_bytes, 4)};  // text may say so
   const double full = full_brightness(type, facts.largest);
   if (full == 0) {
     ignored.push_back(names_of(colors) + " (" + type_name(type) + " up to " + number(facts.largest) +

@@ -62,13 +62,15 @@ TEST_CASE("cloud cases: a packed color in a double leaves the points alone") {
 TEST_CASE("cloud cases: normals of the file, of unit length or made so") {
   const RgbdCloud unit = cloud_of("with_normals.pcd");
   REQUIRE(unit.normals.size() == 3 * unit.size());
-  CHECK(unit.notes == Strings{"normals are normal_x normal_y normal_z", "ignored: curvature"});
+  CHECK(unit.notes ==
+        Strings{"normals are normal_x normal_y normal_z", "all points have one normal", "ignored: curvature"});
   const RgbdCloud cloud = cloud_of("meshlab_long_normals.ply");
   REQUIRE(cloud.normals.size() == 3 * cloud.size());
   CHECK(cloud.normals[0] == doctest::Approx(3.93 / 6.27).epsilon(0.01));
   CHECK(std::hypot(cloud.normals[0], cloud.normals[1], cloud.normals[2]) == doctest::Approx(1));
   CHECK(note_of(cloud, "normals") ==
         "normals are nx ny nz, 1600 of them made unit length (they are 6.27 to 6.27 long)");
+  CHECK(note_of(cloud, "all points") == "all points have one normal");
   CHECK(note_of(cloud, "ignored") == "ignored: alpha; elements face (2)");
 }
 

@@ -101,6 +101,15 @@ TEST_CASE("cloud kinds: the range of colors is told apart by the data") {
                "ignored: red green blue (F4 up to 1e+06: colors are 0 to 1, 255 or 65535)");
 }
 
+TEST_CASE("cloud kinds: what text says counts more than the type before it, and a channel of one value is named") {
+  const std::vector<Field> fields = fields_of({"red", "green", "blue"}, "U1", "uchar");
+  const RgbdCloud fractions = read_from_bytes(ply_of(fields, {"0.2 1 0", "1 0 0.6"}));
+  CHECK(fractions.rgb == Rgb{51, 255, 0, 255, 0, 153});
+  CHECK(read_from_bytes(ply_of(fields, {"1 2 3", "1 2 3"})).notes == Strings{"all points have one color, 1 2 3"});
+  CHECK(read_from_bytes(ply_of({{"i", "", "float"}}, {"7", "7"})).notes ==
+        Strings{"intensities are i", "all points have one intensity"});
+}
+
 TEST_CASE("cloud kinds: packed colors of every type, or why not") {
   const Strings one{"rgb"};
   check_colors("U4", "uint", {"16909060"}, {2, 3, 4}, "", one);
@@ -116,6 +125,12 @@ TEST_CASE("cloud kinds: packed colors of every type, or why not") {
       "FIELDS x y z rgb _ t\nSIZE 4 4 4 1 1 4\nTYPE F F F U U F\nCOUNT 1 1 1 3 5 2\nPOINTS 1\nDATA ascii\n"
       "1 2 3 7 8 9 0 0 0 0 0 5 5\n");
   CHECK(triple.rgb == Rgb{7, 8, 9});
+  const RgbdCloud triples = read_from_bytes(
+      "FIELDS normal rgba xyz\nSIZE 4 1 8\nTYPE F U F\nCOUNT 3 4 3\nPOINTS 1\nDATA binary\n" + cell(0.0F).bytes +
+      cell(1.0F).bytes + cell(0.0F).bytes + "abcd" + cell(5.0).bytes + cell(6.0).bytes + cell(7.0).bytes);
+  CHECK(triples.xyz == std::vector<float>{5, 6, 7});
+  CHECK(triples.rgb == Rgb{'a', 'b', 'c'});
+  CHECK(triples.normals == std::vector<float>{0, 1, 0});
   CHECK(triple.notes == Strings{"ignored: t (COUNT 2)"});
 }
 
@@ -172,6 +187,9 @@ TEST_CASE("cloud kinds: coordinates far away keep what floats would lose, in tex
     CHECK(shortshot_bench::drop_zeros(cloud) == 1);
     CHECK(std::isnan(cloud.xyz[6]));
   }
+  const std::string one = "FIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nPOINTS 1\nDATA ascii\n";
+  CHECK(read_from_bytes(one + "465123.125 5412345.5 3\n").is_shifted());
+  CHECK_FALSE(read_from_bytes(one + "1 2 3\n").is_shifted());
   const RgbdCloud lost = read_from_bytes(xyz_header + "DATA binary\n" + cell(4e6F).bytes + cell(7e5F).bytes +
                                          cell(1.0F).bytes + cell(4e6F + 1).bytes + cell(7e5F).bytes + cell(1.0F).bytes);
   CHECK_FALSE(lost.is_shifted());
