@@ -1,6 +1,7 @@
 #include "make_cloud.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdio>
 #include <string>
@@ -14,12 +15,16 @@
 namespace shortshot_bench {
 namespace {
 
-void note_shift(const OriginShift& shift, RgbdCloud& cloud) {
+void note_shift(const PointTable& table, const OriginShift& shift, RgbdCloud& cloud) {
   char text[200];
   if (cloud.is_shifted()) {
     std::snprintf(text, sizeof text, "origin %.10g %.10g %.10g subtracted: floats are %.2g apart out there",
                   shift.origin[0], shift.origin[1], shift.origin[2], shift.spacing);
     cloud.notes.emplace_back(text);
+  }
+  if (shift.spacing > 0 && table.viewpoint == std::array<double, 3>{0, 0, 0}) {
+    cloud.notes.emplace_back(
+        "the viewpoint is 0 0 0, far away, or not given: what turns towards the camera turns there");
   }
   if (shift.lost) {
     std::snprintf(text, sizeof text,
@@ -40,7 +45,7 @@ void read_coordinates(const PointTable& table, RgbdCloud& cloud) {
                    [&](std::size_t point, double value) { cloud.xyz[3 * point + axis] = to_float(value - origin); });
     cloud.viewpoint[axis] = to_float(table.viewpoint[axis] - origin);
   }
-  note_shift(shift, cloud);
+  note_shift(table, shift, cloud);
   const ScalarType& type = table.channel(Role::x)->type;
   if (type.kind != ScalarKind::floating) {
     cloud.notes.push_back("coordinates are whole numbers (" + type_name(type) +

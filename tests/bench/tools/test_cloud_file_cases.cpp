@@ -81,6 +81,7 @@ TEST_CASE("cloud cases: doubles far from the origin") {
   CHECK(cloud.xyz[2] == 0.8005F);
   CHECK(cloud.viewpoint == std::array<float, 3>{-465123, -5412346, 0});
   CHECK(note_of(cloud, "origin") == "origin 465123 5412346 0 subtracted: floats are 0.5 apart out there");
+  CHECK(note_of(cloud, "the viewpoint is 0 0 0, far away") != "");
   CHECK(described(cloud, "scsh336") > 80);
 }
 

@@ -181,6 +181,7 @@ TEST_CASE("cloud kinds: coordinates far away keep what floats would lose, in tex
     RgbdCloud cloud = read_from_bytes(text + "DATA ascii\n" + rows);
     CHECK(cloud.origin == std::array<double, 3>{4000000, 700000, 0});
     CHECK(cloud.viewpoint == std::array<float, 3>{0, 0, 9});
+    CHECK(note_of(cloud, "the viewpoint") == "");
     CHECK(cloud.xyz[0] == 0.25F);
     CHECK(cloud.xyz[4] == 0.75F);
     CHECK(note_of(cloud, "1 of 5 points (20 %) are 0 0 0") != "");
