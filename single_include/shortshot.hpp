@@ -190,20 +190,21 @@ inline constexpr int version_patch = SHORTSHOT_VERSION_PATCH;
 
 #define SHORTSHOT_TYPES SHORTSHOT_JOIN_VERSION(SHORTSHOT_VERSION_MAJOR, SHORTSHOT_VERSION_MINOR)
 
-#define SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h) types##_##a##b##c##d##e##f##g##h
-#define SHORTSHOT_JOIN_CODE(types, a, b, c, d, e, f, g, h) SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h)
+#define SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h, i) types##_##a##b##c##d##e##f##g##h##i
+#define SHORTSHOT_JOIN_CODE(types, a, b, c, d, e, f, g, h, i) SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h, i)
 
 // Every flag that lets the compiler use other instructions, or makes it compute or inline otherwise, is a bit of the
-// name: `v0_1_c0000000` is version 0.1 for plain x86-64.
-#define SHORTSHOT_CODE                                                                                          \
-  SHORTSHOT_JOIN_CODE(SHORTSHOT_TYPES, SHORTSHOT_DIGIT(__SSE__, __SSE2__, __SSE3__, __SSSE3__),                 \
-                      SHORTSHOT_DIGIT(__SSE4_1__, __SSE4_2__, __POPCNT__, __SSE4A__),                           \
-                      SHORTSHOT_DIGIT(__AVX__, __F16C__, __FMA__, __AVX2__),                                    \
-                      SHORTSHOT_DIGIT(__BMI__, __BMI2__, __LZCNT__, __MOVBE__),                                 \
-                      SHORTSHOT_DIGIT(__AVX512F__, __AVX512BW__, __AVX512DQ__, __AVX512VL__),                   \
-                      SHORTSHOT_DIGIT(__AVX512CD__, __AVX512VNNI__, __AVXVNNI__, __FMA4__),                     \
-                      SHORTSHOT_DIGIT(__ARM_NEON, __ARM_FEATURE_FMA, __ARM_FEATURE_DSP, __ARM_FEATURE_DOTPROD), \
-                      SHORTSHOT_DIGIT(__ARM_FEATURE_SVE, __ARM_FEATURE_MVE, __FAST_MATH__, __OPTIMIZE_SIZE__))
+// name: `v0_1_c00000000` is version 0.1 for plain x86-64.
+#define SHORTSHOT_CODE                                                                                                 \
+  SHORTSHOT_JOIN_CODE(                                                                                                 \
+      SHORTSHOT_TYPES, SHORTSHOT_DIGIT(__SSE__, __SSE2__, __SSE3__, __SSSE3__),                                        \
+      SHORTSHOT_DIGIT(__SSE4_1__, __SSE4_2__, __POPCNT__, __SSE4A__),                                                  \
+      SHORTSHOT_DIGIT(__AVX__, __F16C__, __FMA__, __AVX2__), SHORTSHOT_DIGIT(__BMI__, __BMI2__, __LZCNT__, __MOVBE__), \
+      SHORTSHOT_DIGIT(__AVX512F__, __AVX512BW__, __AVX512DQ__, __AVX512VL__),                                          \
+      SHORTSHOT_DIGIT(__AVX512CD__, __AVX512VNNI__, __AVXVNNI__, __FMA4__),                                            \
+      SHORTSHOT_DIGIT(__ARM_NEON, __ARM_FEATURE_FMA, __ARM_FEATURE_DSP, __ARM_FEATURE_DOTPROD),                        \
+      SHORTSHOT_DIGIT(__ARM_FEATURE_SVE, __ARM_FEATURE_MVE, __FAST_MATH__, __OPTIMIZE_SIZE__),                         \
+      SHORTSHOT_DIGIT(__RECIPROCAL_MATH__, __ASSOCIATIVE_MATH__, __NO_SIGNED_ZEROS__, __FINITE_MATH_ONLY__))
 
 // Set by us, too: functions, and lambdas, that are inlined for speed, but left to the compiler where it was asked for
 // small code (-Os).
@@ -7543,38 +7544,78 @@ class OrganizedSearch {
 #ifndef SHORTSHOT_SELF_CHECK_HPP
 #define SHORTSHOT_SELF_CHECK_HPP
 
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+[[nodiscard, gnu::always_inline]] inline float product(float a, float b) noexcept { return extend::unfused(a * b); }
+[[nodiscard, gnu::always_inline]] inline simd::F32 product(simd::F32 a, simd::F32 b) noexcept { return a * b; }
+
+[[nodiscard, gnu::always_inline]] inline bool has_bits(float value, float expected) noexcept {
+  return math::bits_of(value) == math::bits_of(expected);
+}
+[[nodiscard, gnu::always_inline]] inline bool has_bits(simd::F32 value, float expected) noexcept {
+  return every(bits_of(value) == bits_of(simd::all(expected)));
+}
+
+/// Arithmetic with a float, or with a register of them, of which `of` makes one. Each line is true if operations are
+/// what they say, and false under what its comment names.
+template <class Of>
+[[nodiscard, gnu::always_inline]] inline bool rounds_each_operation(Of of) noexcept {
+  // Volatile: what is computed while compiling says nothing about the program.
+  const auto number = [&](float value) {
+    volatile float unknown = value;
+    return of(unknown);
+  };
+  constexpr float half_ulp = 5.96046448e-8f;  // 2^-24, of numbers from 1 on
+  constexpr float least = 1.17549435e-38f;    // of normal numbers: 2^-126
+  const auto one = number(1.0f);
+  const auto above_one = number(1.0f + 4096.0f * half_ulp);  // its square needs 25 bits
+  const auto large = number(extend::whole_numbers);
+  const auto divisor = number(3.0f);
+  const auto quotients = [&](float a) { return has_bits(number(a) / divisor, a / 3.0f); };
+  using simd::sqrt;
+
+  // All of them, whatever the first say: the compiler replaces several divisions at once.
+  bool right = has_bits(product(above_one, above_one) - number(1.0f + 8192.0f * half_ulp), 0.0f);  // fused
+  right &= has_bits((number(0.25f) + large) - large, 0.0f);                                        // regrouped
+  right &= quotients(5.0f) & quotients(7.0f) & quotients(11.0f) & quotients(13.0f);  // multiplied by the reciprocal
+  right &= has_bits(number(5.0f) / of(3.0f), 5.0f / 3.0f) & has_bits(number(7.0f) / of(3.0f), 7.0f / 3.0f);
+  right &= has_bits(sqrt(number(3.0f)), 1.73205081f) & has_bits(sqrt(number(5.0f)), 2.23606798f);  // approximated
+  right &= has_bits(one + number(half_ulp / 2.0f), 1.0f);                                          // rounded up
+  right &= has_bits(one - number(half_ulp / 4.0f), 1.0f);                 // rounded down, or towards zero
+  right &= has_bits(number(-0.0f) + of(0.0f), 0.0f);                      // signs of zeros ignored
+  right &= has_bits(product(number(least), of(0.5f)), least / 2.0f);      // small results flushed to zero
+  right &= has_bits(number(least / 2.0f) + number(least / 2.0f), least);  // small operands taken for zero
+  return right;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
-/// True if this translation unit's arithmetic rounds every operation by itself, as the same bits on every machine need.
-/// GCC and clang are kept from fusing a * b + c into one rounding by unfused() wherever their CPUs can; other compilers
-/// and CPUs may need -ffp-contract=off. False where something is fused nevertheless, or where sums are regrouped and
-/// NaN ignored (-ffast-math, which the library does not support). Descriptors are then still descriptors, but may
-/// differ in their last bits from those of other builds; under -ffast-math, NaN points may be taken for neighbors. It
-/// speaks for the flags of the translation unit that calls it. No allocation, reentrant.
-[[nodiscard]] inline bool self_check() noexcept {
-  // Volatile: what is computed while compiling says nothing about the program.
-  volatile float read_one_ulp_above = 1.00024414f;    // 1 + 2^-12: its square needs 25 bits
-  volatile float read_square_in_float = 1.00048828f;  // 1 + 2^-11
-  volatile float read_large = extend::whole_numbers;
-  volatile float read_small = 0.25f;
-  const extend::simd::F32 a = extend::simd::all(read_one_ulp_above);
-  const extend::simd::F32 square = extend::simd::all(read_square_in_float);
-  const extend::simd::F32 large = extend::simd::all(read_large);
-  const extend::simd::F32 small = extend::simd::all(read_small);
-  const float scalar_a = read_one_ulp_above;
-  const float scalar_large = read_large;
-
-  const bool unfused_lanes = !(extend::simd::largest(extend::simd::abs(a * a - square)) > 0.0f);
-  const bool unfused_scalar = extend::unfused(scalar_a * scalar_a) - read_square_in_float == 0.0f;
-  const bool ungrouped_lanes = !(extend::simd::largest((small + large) - large) > 0.0f);
-  const bool ungrouped_scalar = (read_small + scalar_large) - scalar_large == 0.0f;
+/// True if arithmetic is what the same bits on every machine need: every operation rounded by itself, to the nearest.
+/// GCC and clang are kept from fusing a * b + c into one rounding by unfused() wherever their CPUs can; other CPUs may
+/// need -ffp-contract=off. False
+///   * where something is fused nevertheless;
+///   * under -ffast-math, and under those of its parts that change bits, one by one: sums regrouped
+///     (-fassociative-math), divisions replaced (-freciprocal-math), NaN or the signs of zeros ignored
+///     (-ffinite-math-only, -fno-signed-zeros);
+///   * where floats have more bits than 32 on the way (x87: with -m32, add -msse2 -mfpmath=sse);
+///   * in a thread that rounds otherwise (fesetround()), or takes numbers below 2^-126 for zero, as a program does of
+///     which any library was linked with -ffast-math.
+/// Descriptors are then still descriptors, but may differ in their last bits from those of other builds; without NaN,
+/// NaN points may be taken for neighbors. It speaks for the flags of the translation unit that calls it, and for the
+/// thread. No allocation, reentrant.
+[[nodiscard, gnu::always_inline]] inline bool self_check() noexcept {
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
-  const bool knows_nan = false;
+  return false;
 #else
-  const bool knows_nan = true;
+  const bool floats = detail::rounds_each_operation([](float value) { return value; });
+  const bool lanes = detail::rounds_each_operation([](float value) { return extend::simd::all(value); });
+  return floats && lanes;
 #endif
-  return unfused_lanes && unfused_scalar && ungrouped_lanes && ungrouped_scalar && knows_nan;
 }
 
 }  // namespace SHORTSHOT_CODE

@@ -53,20 +53,21 @@
 
 #define SHORTSHOT_TYPES SHORTSHOT_JOIN_VERSION(SHORTSHOT_VERSION_MAJOR, SHORTSHOT_VERSION_MINOR)
 
-#define SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h) types##_##a##b##c##d##e##f##g##h
-#define SHORTSHOT_JOIN_CODE(types, a, b, c, d, e, f, g, h) SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h)
+#define SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h, i) types##_##a##b##c##d##e##f##g##h##i
+#define SHORTSHOT_JOIN_CODE(types, a, b, c, d, e, f, g, h, i) SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h, i)
 
 // Every flag that lets the compiler use other instructions, or makes it compute or inline otherwise, is a bit of the
-// name: `v0_1_c0000000` is version 0.1 for plain x86-64.
-#define SHORTSHOT_CODE                                                                                          \
-  SHORTSHOT_JOIN_CODE(SHORTSHOT_TYPES, SHORTSHOT_DIGIT(__SSE__, __SSE2__, __SSE3__, __SSSE3__),                 \
-                      SHORTSHOT_DIGIT(__SSE4_1__, __SSE4_2__, __POPCNT__, __SSE4A__),                           \
-                      SHORTSHOT_DIGIT(__AVX__, __F16C__, __FMA__, __AVX2__),                                    \
-                      SHORTSHOT_DIGIT(__BMI__, __BMI2__, __LZCNT__, __MOVBE__),                                 \
-                      SHORTSHOT_DIGIT(__AVX512F__, __AVX512BW__, __AVX512DQ__, __AVX512VL__),                   \
-                      SHORTSHOT_DIGIT(__AVX512CD__, __AVX512VNNI__, __AVXVNNI__, __FMA4__),                     \
-                      SHORTSHOT_DIGIT(__ARM_NEON, __ARM_FEATURE_FMA, __ARM_FEATURE_DSP, __ARM_FEATURE_DOTPROD), \
-                      SHORTSHOT_DIGIT(__ARM_FEATURE_SVE, __ARM_FEATURE_MVE, __FAST_MATH__, __OPTIMIZE_SIZE__))
+// name: `v0_1_c00000000` is version 0.1 for plain x86-64.
+#define SHORTSHOT_CODE                                                                                                 \
+  SHORTSHOT_JOIN_CODE(                                                                                                 \
+      SHORTSHOT_TYPES, SHORTSHOT_DIGIT(__SSE__, __SSE2__, __SSE3__, __SSSE3__),                                        \
+      SHORTSHOT_DIGIT(__SSE4_1__, __SSE4_2__, __POPCNT__, __SSE4A__),                                                  \
+      SHORTSHOT_DIGIT(__AVX__, __F16C__, __FMA__, __AVX2__), SHORTSHOT_DIGIT(__BMI__, __BMI2__, __LZCNT__, __MOVBE__), \
+      SHORTSHOT_DIGIT(__AVX512F__, __AVX512BW__, __AVX512DQ__, __AVX512VL__),                                          \
+      SHORTSHOT_DIGIT(__AVX512CD__, __AVX512VNNI__, __AVXVNNI__, __FMA4__),                                            \
+      SHORTSHOT_DIGIT(__ARM_NEON, __ARM_FEATURE_FMA, __ARM_FEATURE_DSP, __ARM_FEATURE_DOTPROD),                        \
+      SHORTSHOT_DIGIT(__ARM_FEATURE_SVE, __ARM_FEATURE_MVE, __FAST_MATH__, __OPTIMIZE_SIZE__),                         \
+      SHORTSHOT_DIGIT(__RECIPROCAL_MATH__, __ASSOCIATIVE_MATH__, __NO_SIGNED_ZEROS__, __FINITE_MATH_ONLY__))
 
 // Set by us, too: functions, and lambdas, that are inlined for speed, but left to the compiler where it was asked for
 // small code (-Os).

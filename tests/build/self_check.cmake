@@ -1,0 +1,37 @@
+# self_check() notices what its build, or its thread, does to arithmetic; and where it does not, the bits are the same.
+
+# self_check(NAME EXPECTED FLAGS...)
+function(self_check name expected)
+  add_executable(self_check_${name} self_check.cpp)
+  target_link_libraries(self_check_${name} PRIVATE shortshot)
+  target_compile_options(self_check_${name} PRIVATE -O2 -fno-sanitize=all ${ARGN})
+  promise(${name} ${expected} self_check_${name})
+endfunction()
+
+# promise(NAME EXPECTED PROGRAM [MODE])
+function(promise name expected program)
+  build_test(self_check.${name} "${here}/expect_promise.sh" ${expected} $<TARGET_FILE:self_check_holds>
+    $<TARGET_FILE:${program}> ${ARGN})
+  set_tests_properties(build.self_check.${name} PROPERTIES SKIP_RETURN_CODE 77)
+endfunction()
+
+self_check(holds 0)
+self_check(notices_fast_math 1 -ffast-math)
+self_check(notices_unsafe_math 1 -funsafe-math-optimizations)
+self_check(notices_regrouping 1 -fassociative-math -fno-signed-zeros -fno-trapping-math)
+self_check(notices_reciprocals 1 -freciprocal-math)
+self_check(notices_unsigned_zeros 1 -fno-signed-zeros)
+self_check(notices_finite_math 1 -ffinite-math-only)
+foreach(mode IN ITEMS upward downward toward_zero flush)
+  promise(notices_${mode} 1 self_check_holds ${mode})
+endforeach()
+if(x86)
+  self_check(holds_with_fma 0 -mavx2 -mfma -ffp-contract=fast)
+  self_check(holds_with_fma_without_lanes 0 -U__SSE2__ -mfma -ffp-contract=fast)
+  # Without the macro that says so, unfused() does not know that the compiler may fuse.
+  self_check(notices_fma 1 -mavx2 -mfma -U__FMA__ -ffp-contract=fast)
+  self_check(notices_fma_without_lanes 1 -U__SSE2__ -mfma -U__FMA__ -ffp-contract=fast)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    self_check(notices_x87 1 -mfpmath=387)
+  endif()
+endif()
