@@ -1153,6 +1153,9 @@ inline namespace SHORTSHOT_CODE {
   return true;
 }
 
+/// The least number with all of a float's bits, 2^-126.
+inline constexpr float least_normal = 1.17549435e-38f;
+
 /// The angle of (far, near), both >= 0, in turns and less a quarter turn: -1/4 to 0, within 6e-8. A minimax fit with
 /// both ends exact, because points on axes and diagonals lie on the borders of cells. Of (0, 0), or of what is not
 /// finite: -1/4.
@@ -1160,8 +1163,9 @@ inline namespace SHORTSHOT_CODE {
   using simd::all;
   constexpr float fit[] = {0.00106037291698158f, -0.00527749117463827f, 0.0125921480357647f, -0.0210182461887598f,
                            0.0315139554440975f,  -0.0530250333249569f,  0.159154295921326f};
-  // The tangent of the angle minus an eighth of a turn. max() gives its second argument where the first is NaN.
-  const simd::F32 t = simd::max((near - far) / (near + far), all(-1.0f));
+  // The tangent of the angle minus an eighth of a turn; -1 of (0, 0), and nobody divides by zero.
+  const simd::F32 f = simd::max(far, all(least_normal));
+  const simd::F32 t = (near - f) / (near + f);
   const simd::F32 s = t * t;
   simd::F32 p = all(fit[0]);
   detail::each<6>([&](auto k) SHORTSHOT_INLINE_LAMBDA { p = p * s + all(fit[k + 1]); });
@@ -1223,7 +1227,7 @@ inline namespace SHORTSHOT_CODE {
   const F32 root = simd::sqrt(exact + rest);
   const F32 coarse_root = coarse(root);
   const F32 error = (exact - coarse_root * coarse_root) + (rest - (root - coarse_root) * (root + coarse_root));
-  return root + error / simd::max(root + root, simd::all(1.17549435e-38f));
+  return root + error / simd::max(root + root, simd::all(least_normal));
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -1675,18 +1679,20 @@ template <class Function>
 }
 
 /// Calls f(index, points, valid) for registers of points in order: the first one's index, and which lanes have three
-/// finite coordinates. At least one has; registers without are passed over. The view comes by value: no store that f
-/// makes can change it.
+/// finite coordinates. At least one has; registers without are passed over. The other lanes are zeros. The view comes
+/// by value: no store that f makes can change it.
 template <class Function>
 [[gnu::always_inline]] inline void for_each_valid_register(const CloudView cloud, Function f) {
   const std::size_t last = cloud.size - 1;
   for (std::size_t i = 0; i < cloud.size; i += simd::lanes) {
     const bool whole = cloud.size - i >= simd::lanes;
-    const PointLanes points =
+    PointLanes points =
         whole ? read_lanes(cloud.points, [i](std::size_t lane) { return i + lane; })
               : read_lanes(cloud.points, [=](std::size_t lane) { return i + lane < last ? i + lane : last; });
     const simd::Mask valid = whole ? is_finite(points) : is_finite(points) & simd::first(cloud.size - i);
-    if (any(valid)) f(i, points, valid);
+    if (!any(valid)) continue;
+    if (!every(valid)) points = {keep(valid, points.x), keep(valid, points.y), keep(valid, points.z)};
+    f(i, points, valid);
   }
 }
 
@@ -1724,11 +1730,12 @@ struct Radius {
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
 
-/// A radius must be a positive number whose square is a normal one.
+/// A radius must be a positive number whose square is a normal one, and not so near to the largest that a neighbor's
+/// coordinates in a frame might have larger ones: at most about 1.8e19.
 [[nodiscard]] inline Status validate(Radius radius) noexcept {
   // Bits of positive numbers order as the numbers do; infinity's follow.
   const auto lies_from = [](std::uint32_t first, float value) {
-    return extend::math::bits_of(value) - first < 0x7F800000u - first;
+    return extend::math::bits_of(value) - first < 0x7F780000u - first;
   };
   return lies_from(1u, radius.value) && lies_from(0x00800000u, radius.squared) ? Status::ok : Status::bad_radius;
 }
@@ -2698,6 +2705,8 @@ template <class Neighbors>
 #ifndef SHORTSHOT_DESCRIPTOR_SIGNALS_HPP
 #define SHORTSHOT_DESCRIPTOR_SIGNALS_HPP
 
+#include <limits>
+
 // shortshot/cloud/intensity_source.hpp: where a descriptor's intensities come from.
 #ifndef SHORTSHOT_CLOUD_INTENSITY_SOURCE_HPP
 #define SHORTSHOT_CLOUD_INTENSITY_SOURCE_HPP
@@ -3620,9 +3629,12 @@ struct Intensity : extend::Signal<Bins, CloudIntensities> {
                                                                   const Intensities& intensities) noexcept {
     const extend::simd::F32 zero = extend::simd::all(0.0f);
     const extend::simd::F32 own = intensities(at.index);
-    const extend::simd::F32 echo = extend::simd::max(zero, own) + (own - own);  // NaN where it is not finite
+    const extend::simd::Mask known = extend::simd::all_int(0x7F800000) > bits_of(extend::simd::abs(own));  // finite
+    const extend::simd::F32 echo = extend::simd::max(zero, keep(known, own));
     const extend::simd::F32 sum = echo + extend::simd::max(zero, extend::simd::all(intensities.reference));
-    return select(zero >= sum, extend::simd::all(0.5f), echo / sum);
+    const extend::simd::F32 share = echo / extend::simd::max(sum, extend::simd::all(extend::math::least_normal));
+    const extend::simd::F32 value = select(zero >= sum, extend::simd::all(0.5f), share);
+    return select(known, value, extend::simd::all(std::numeric_limits<float>::quiet_NaN()));
   }
 };
 
@@ -4997,6 +5009,11 @@ inline namespace SHORTSHOT_CODE {
   return simd::max(simd::min(value, simd::all(4.0f)), simd::all(-4.0f));
 }
 
+/// False for NaN, and for what is too large to be one. By the bits, which order as numbers do.
+[[nodiscard]] SHORTSHOT_INLINE simd::Mask has_value(simd::F32 measured) noexcept {
+  return simd::all_int(0x7EE1B1E6) > bits_of(simd::abs(measured));  // 1.5e38f
+}
+
 /// Where in its histogram a measured value lies.
 template <class Signal>
 [[nodiscard]] SHORTSHOT_INLINE simd::F32 place_in_histogram(simd::F32 measured) noexcept {
@@ -5038,8 +5055,10 @@ struct SignalsOfPlace<SignalList<Signals...>, Sources> {
   SHORTSHOT_INLINE void measure_one(const At& at, simd::Mask& described, simd::F32& value) const noexcept {
     if constexpr (!Signal::reads_index_only) {
       const simd::F32 measured = detail::measure<Signal>(typename Signal::Sources{}, at, sources);
-      described = described & (simd::all(1.5e38f) > simd::abs(measured));  // false for NaN
-      value = cut_off(measured);
+      described = described & has_value(measured);
+      // NaN goes no further: to compare it is an invalid operation. (One lane at a time is not appended without a
+      // value.)
+      value = cut_off(simd::lanes > 1 ? keep(described, measured) : measured);
     }
   }
   template <class Signal, class Chunk, class... Packing>
@@ -5204,8 +5223,12 @@ template <class Cells, bool Exact, class Neighbors, class Signals, class Chunk>
     }
   }
   chunk.size = size;
-  // What passes read beyond the end must be points that exist.
-  for (; size % simd::lanes != 0; ++size) chunk.index[size] = n.index[stretches.first];
+  // What passes read beyond the end must be points that exist, and numbers.
+  for (; size % simd::lanes != 0; ++size) {
+    chunk.index[size] = n.index[stretches.first];
+    for (int k = 0; k < Chunk::rows_of_place + Chunk::signals; ++k)
+      chunk.rows[size + std::size_t{Chunk::room} * static_cast<std::size_t>(k)] = 0.0f;
+  }
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -6659,6 +6682,29 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, c
 #ifndef SHORTSHOT_SEARCH_OFFER_HPP
 #define SHORTSHOT_SEARCH_OFFER_HPP
 
+// shortshot/base/quiet.hpp: comparisons with NaN that are no invalid operation, for programs that trap those.
+//
+// What is promised: FE_INVALID and FE_DIVBYZERO are raised by no function of the library, FE_OVERFLOW only where points
+// lie farther apart than 1e19. Arithmetic with NaN is quiet by itself; <, min() and max() are not.
+#ifndef SHORTSHOT_BASE_QUIET_HPP
+#define SHORTSHOT_BASE_QUIET_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// a < b, false with NaN. Where comparisons are calls, there is nothing to trap, and the quiet one would be two.
+[[nodiscard, gnu::always_inline]] inline bool is_below(float a, float b) noexcept {
+#if defined(__SSE__) || defined(__aarch64__)
+  return __builtin_isless(a, b);
+#else
+  return a < b;
+#endif
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BASE_QUIET_HPP
+
 namespace shortshot::extend {
 inline namespace SHORTSHOT_CODE {
 
@@ -6689,7 +6735,7 @@ template <class Neighbors>
 inline void offer(Neighbors& out, const Point& p, std::uint32_t index, const Point& center,
                   float radius_squared) noexcept {
   const Neighbor v = neighbor_from(center, p, index);
-  if (!(v.d2 < radius_squared)) return;
+  if (!detail::is_below(v.d2, radius_squared)) return;
   if (out.size < out.capacity) put(out, out.size++, v);
   ++out.found;
 }
@@ -6905,7 +6951,7 @@ template <class Index>
                                Extent& extent) noexcept {
   constexpr int count = 64;
   const float low = extent.low[axis];
-  const float width = (extent.high[axis] - low) / count;
+  const float width = extent.high[axis] / count - low / count;  // finite, whatever the extent
   if (!(width > 0.0f)) return false;
   for (int s = 0; s < count; ++s) slices[s] = 0;
   const auto slice_of = [&](float v) {
@@ -7422,6 +7468,7 @@ class OrganizedSearch {
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     extend::clear(out, center);
     if (status() != Status::ok) return status();
+    if (!shortshot::is_finite(center)) return Status::ok;
     const float reach = extend::unfused(radius.value * 1.000001f);  // covers the rounding of d2
     const detail::PixelRange columns = window(columns_, center.x, center.z, reach, cloud_.width);
     const detail::PixelRange rows = window(rows_, center.y, center.z, reach, cloud_.height);
@@ -7476,12 +7523,14 @@ class OrganizedSearch {
     }
     bool front = false;
     bool behind = false;
+    bool nowhere = false;  // in the camera's own plane: in no pixel
     extend::for_each_valid(cloud_, [&](std::size_t, const Point& p) {
       front = front || p.z > 0.0f;
-      behind = behind || !(p.z > 0.0f);
+      behind = behind || p.z < 0.0f;
+      nowhere = nowhere || p.z == 0.0f;
     });
-    if (!front && !behind) return Status::empty_cloud;
-    if (front && behind) return Status::not_organized;
+    if (!front && !behind && !nowhere) return Status::empty_cloud;
+    if ((front && behind) || nowhere) return Status::not_organized;
 
     Line columns{};
     Line rows{};
@@ -7489,10 +7538,12 @@ class OrganizedSearch {
       columns.add_to_mean(x, u);
       rows.add_to_mean(y, v);
     });
+    if (!columns.is_finite() || !rows.is_finite()) return Status::not_organized;
     for_each_pixel([&](float u, float v, float x, float y) {
       columns.add_to_slope(x, u);
       rows.add_to_slope(y, v);
     });
+    if (!columns.is_finite() || !rows.is_finite()) return Status::not_organized;
     columns_ = columns.projection();
     rows_ = rows.projection();
     for_each_pixel([&](float u, float v, float x, float y) {
@@ -7517,6 +7568,9 @@ class OrganizedSearch {
     void add_to_slope(float slope, float pixel) noexcept {
       variance += extend::unfused((slope - mean_slope) * (slope - mean_slope));
       covariance += extend::unfused((slope - mean_slope) * (pixel - mean_pixel));
+    }
+    [[nodiscard]] bool is_finite() const noexcept {
+      return extend::math::is_finite(mean_slope) && extend::math::is_finite({variance, mean_pixel, covariance});
     }
     [[nodiscard]] detail::Projection projection() const noexcept {
       const float focal = variance > 0.0f ? covariance / variance : 0.0f;
@@ -9115,7 +9169,7 @@ struct VoxelMember {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float position = coordinate(p, axis) / leaf;
       member.voxel[axis] = __builtin_floorf(position);
-      member.place[axis] = position - member.voxel[axis];
+      member.place[axis] = math::is_finite(position) ? position - member.voxel[axis] : 0.0f;
       from_center[axis] = member.place[axis] - 0.5f;
     }
     member.d2 = (unfused(from_center[0] * from_center[0]) + unfused(from_center[1] * from_center[1])) +
@@ -9213,8 +9267,6 @@ inline namespace SHORTSHOT_CODE {
 // allocates, starts threads.
 #ifndef SHORTSHOT_BATCH_ESTIMATE_NORMALS_HPP
 #define SHORTSHOT_BATCH_ESTIMATE_NORMALS_HPP
-
-#include <limits>
 
 // shortshot/batch/executor.hpp: who does extract()'s work: threads started for one call, or an executor of the
 // caller's. Hosted only.
@@ -9376,12 +9428,14 @@ class CandidateChunk {
             const MomentScale& by) noexcept {
     for (size_ = 0; size_ < most && first + size_ < candidates.size; size_ += simd::lanes) {
       const NeighborLanes v = load_neighbors(candidates, first + size_);
+      const std::uint32_t left = candidates.size - first - size_;
       std::uint32_t index[simd::lanes];
       simd::store(index, v.index);
+      for (std::size_t lane = left; lane < simd::lanes; ++lane) index[lane] = index[0];
       const PointLanes p = read_lanes(cloud.points, [&](std::size_t lane) { return std::size_t{index[lane]}; });
-      const simd::Mask exists = simd::first(candidates.size - first - size_);
-      // What fills up the last register is nobody's neighbor.
-      simd::store(x_ + size_, select(exists, p.x, simd::all(std::numeric_limits<float>::quiet_NaN())));
+      // What fills up the last register is nobody's neighbor: on the other side of the origin, beyond any radius.
+      const float nowhere = candidates.center.x > 0.0f ? -1.3e19f : 1.3e19f;
+      simd::store(x_ + size_, select(simd::first(left), p.x, simd::all(nowhere)));
       simd::store(y_ + size_, p.y);
       simd::store(z_ + size_, p.z);
       const Terms each = terms_of(v, by);
@@ -9465,6 +9519,7 @@ class NormalEstimator {
  private:
   static constexpr std::size_t group = 16;
   static constexpr std::size_t smallest_part = 8;
+  static constexpr float largest_shared = 1e18f;  // radius: CandidateChunk needs room beyond it
   static_assert(smallest_part % simd::lanes == 0, "whole registers");
 
   /// The k-th point, where four rows of an image are walked at once: a group then lies in a square.
@@ -9512,7 +9567,7 @@ class NormalEstimator {
     }
     wide = Radius((radius_.value + simd::sqrt(farthest_d2)) * 1.00001f);  // more than all roundings
     const float widest = (count > smallest_part ? 1.75f : 3.0f) * radius_.value;
-    return wide.value < widest && validate(wide) == Status::ok &&
+    return wide.value < widest && wide.value < largest_shared && validate(wide) == Status::ok &&
            workspace_.gather(search_, center, wide, candidates) == Status::ok;
   }
 
@@ -12789,6 +12844,7 @@ inline void rotation_of(const float (&q)[4], float (&rotation)[9]) noexcept {
   pose = Pose{};
   const Point source = centroid(pairs, &PointPair::source);
   const Point target = centroid(pairs, &PointPair::target);
+  if (!is_finite(source) || !is_finite(target)) return Status::no_pose;
   float covariance[3][3] = {};
   for (const PointPair& pair : pairs) {
     const Point s = pair.source - source;

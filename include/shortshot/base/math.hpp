@@ -35,6 +35,9 @@ inline namespace SHORTSHOT_CODE {
   return true;
 }
 
+/// The least number with all of a float's bits, 2^-126.
+inline constexpr float least_normal = 1.17549435e-38f;
+
 /// The angle of (far, near), both >= 0, in turns and less a quarter turn: -1/4 to 0, within 6e-8. A minimax fit with
 /// both ends exact, because points on axes and diagonals lie on the borders of cells. Of (0, 0), or of what is not
 /// finite: -1/4.
@@ -42,8 +45,9 @@ inline namespace SHORTSHOT_CODE {
   using simd::all;
   constexpr float fit[] = {0.00106037291698158f, -0.00527749117463827f, 0.0125921480357647f, -0.0210182461887598f,
                            0.0315139554440975f,  -0.0530250333249569f,  0.159154295921326f};
-  // The tangent of the angle minus an eighth of a turn. max() gives its second argument where the first is NaN.
-  const simd::F32 t = simd::max((near - far) / (near + far), all(-1.0f));
+  // The tangent of the angle minus an eighth of a turn; -1 of (0, 0), and nobody divides by zero.
+  const simd::F32 f = simd::max(far, all(least_normal));
+  const simd::F32 t = (near - f) / (near + f);
   const simd::F32 s = t * t;
   simd::F32 p = all(fit[0]);
   detail::each<6>([&](auto k) SHORTSHOT_INLINE_LAMBDA { p = p * s + all(fit[k + 1]); });
@@ -105,7 +109,7 @@ inline namespace SHORTSHOT_CODE {
   const F32 root = simd::sqrt(exact + rest);
   const F32 coarse_root = coarse(root);
   const F32 error = (exact - coarse_root * coarse_root) + (rest - (root - coarse_root) * (root + coarse_root));
-  return root + error / simd::max(root + root, simd::all(1.17549435e-38f));
+  return root + error / simd::max(root + root, simd::all(least_normal));
 }
 
 }  // namespace SHORTSHOT_CODE

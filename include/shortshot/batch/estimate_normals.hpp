@@ -40,12 +40,14 @@ class CandidateChunk {
             const MomentScale& by) noexcept {
     for (size_ = 0; size_ < most && first + size_ < candidates.size; size_ += simd::lanes) {
       const NeighborLanes v = load_neighbors(candidates, first + size_);
+      const std::uint32_t left = candidates.size - first - size_;
       std::uint32_t index[simd::lanes];
       simd::store(index, v.index);
+      for (std::size_t lane = left; lane < simd::lanes; ++lane) index[lane] = index[0];
       const PointLanes p = read_lanes(cloud.points, [&](std::size_t lane) { return std::size_t{index[lane]}; });
-      const simd::Mask exists = simd::first(candidates.size - first - size_);
-      // What fills up the last register is nobody's neighbor.
-      simd::store(x_ + size_, select(exists, p.x, simd::all(std::numeric_limits<float>::quiet_NaN())));
+      // What fills up the last register is nobody's neighbor: on the other side of the origin, beyond any radius.
+      const float nowhere = candidates.center.x > 0.0f ? -1.3e19f : 1.3e19f;
+      simd::store(x_ + size_, select(simd::first(left), p.x, simd::all(nowhere)));
       simd::store(y_ + size_, p.y);
       simd::store(z_ + size_, p.z);
       const Terms each = terms_of(v, by);
@@ -129,6 +131,7 @@ class NormalEstimator {
  private:
   static constexpr std::size_t group = 16;
   static constexpr std::size_t smallest_part = 8;
+  static constexpr float largest_shared = 1e18f;  // radius: CandidateChunk needs room beyond it
   static_assert(smallest_part % simd::lanes == 0, "whole registers");
 
   /// The k-th point, where four rows of an image are walked at once: a group then lies in a square.
@@ -176,7 +179,7 @@ class NormalEstimator {
     }
     wide = Radius((radius_.value + simd::sqrt(farthest_d2)) * 1.00001f);  // more than all roundings
     const float widest = (count > smallest_part ? 1.75f : 3.0f) * radius_.value;
-    return wide.value < widest && validate(wide) == Status::ok &&
+    return wide.value < widest && wide.value < largest_shared && validate(wide) == Status::ok &&
            workspace_.gather(search_, center, wide, candidates) == Status::ok;
   }
 

@@ -43,7 +43,7 @@ struct VoxelMember {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float position = coordinate(p, axis) / leaf;
       member.voxel[axis] = __builtin_floorf(position);
-      member.place[axis] = position - member.voxel[axis];
+      member.place[axis] = math::is_finite(position) ? position - member.voxel[axis] : 0.0f;
       from_center[axis] = member.place[axis] - 0.5f;
     }
     member.d2 = (unfused(from_center[0] * from_center[0]) + unfused(from_center[1] * from_center[1])) +

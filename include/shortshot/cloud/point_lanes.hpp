@@ -47,18 +47,20 @@ template <class Function>
 }
 
 /// Calls f(index, points, valid) for registers of points in order: the first one's index, and which lanes have three
-/// finite coordinates. At least one has; registers without are passed over. The view comes by value: no store that f
-/// makes can change it.
+/// finite coordinates. At least one has; registers without are passed over. The other lanes are zeros. The view comes
+/// by value: no store that f makes can change it.
 template <class Function>
 [[gnu::always_inline]] inline void for_each_valid_register(const CloudView cloud, Function f) {
   const std::size_t last = cloud.size - 1;
   for (std::size_t i = 0; i < cloud.size; i += simd::lanes) {
     const bool whole = cloud.size - i >= simd::lanes;
-    const PointLanes points =
+    PointLanes points =
         whole ? read_lanes(cloud.points, [i](std::size_t lane) { return i + lane; })
               : read_lanes(cloud.points, [=](std::size_t lane) { return i + lane < last ? i + lane : last; });
     const simd::Mask valid = whole ? is_finite(points) : is_finite(points) & simd::first(cloud.size - i);
-    if (any(valid)) f(i, points, valid);
+    if (!any(valid)) continue;
+    if (!every(valid)) points = {keep(valid, points.x), keep(valid, points.y), keep(valid, points.z)};
+    f(i, points, valid);
   }
 }
 

@@ -4,8 +4,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
+#include "../base/math.hpp"
 #include "../base/simd.hpp"
 #include "../cloud/intensity_source.hpp"
 #include "../cloud/normal_source.hpp"
@@ -211,9 +213,12 @@ struct Intensity : extend::Signal<Bins, CloudIntensities> {
                                                                   const Intensities& intensities) noexcept {
     const extend::simd::F32 zero = extend::simd::all(0.0f);
     const extend::simd::F32 own = intensities(at.index);
-    const extend::simd::F32 echo = extend::simd::max(zero, own) + (own - own);  // NaN where it is not finite
+    const extend::simd::Mask known = extend::simd::all_int(0x7F800000) > bits_of(extend::simd::abs(own));  // finite
+    const extend::simd::F32 echo = extend::simd::max(zero, keep(known, own));
     const extend::simd::F32 sum = echo + extend::simd::max(zero, extend::simd::all(intensities.reference));
-    return select(zero >= sum, extend::simd::all(0.5f), echo / sum);
+    const extend::simd::F32 share = echo / extend::simd::max(sum, extend::simd::all(extend::math::least_normal));
+    const extend::simd::F32 value = select(zero >= sum, extend::simd::all(0.5f), share);
+    return select(known, value, extend::simd::all(std::numeric_limits<float>::quiet_NaN()));
   }
 };
 

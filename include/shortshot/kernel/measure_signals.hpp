@@ -26,6 +26,11 @@ inline namespace SHORTSHOT_CODE {
   return simd::max(simd::min(value, simd::all(4.0f)), simd::all(-4.0f));
 }
 
+/// False for NaN, and for what is too large to be one. By the bits, which order as numbers do.
+[[nodiscard]] SHORTSHOT_INLINE simd::Mask has_value(simd::F32 measured) noexcept {
+  return simd::all_int(0x7EE1B1E6) > bits_of(simd::abs(measured));  // 1.5e38f
+}
+
 /// Where in its histogram a measured value lies.
 template <class Signal>
 [[nodiscard]] SHORTSHOT_INLINE simd::F32 place_in_histogram(simd::F32 measured) noexcept {
@@ -67,8 +72,10 @@ struct SignalsOfPlace<SignalList<Signals...>, Sources> {
   SHORTSHOT_INLINE void measure_one(const At& at, simd::Mask& described, simd::F32& value) const noexcept {
     if constexpr (!Signal::reads_index_only) {
       const simd::F32 measured = detail::measure<Signal>(typename Signal::Sources{}, at, sources);
-      described = described & (simd::all(1.5e38f) > simd::abs(measured));  // false for NaN
-      value = cut_off(measured);
+      described = described & has_value(measured);
+      // NaN goes no further: to compare it is an invalid operation. (One lane at a time is not appended without a
+      // value.)
+      value = cut_off(simd::lanes > 1 ? keep(described, measured) : measured);
     }
   }
   template <class Signal, class Chunk, class... Packing>

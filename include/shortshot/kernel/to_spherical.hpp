@@ -124,8 +124,12 @@ template <class Cells, bool Exact, class Neighbors, class Signals, class Chunk>
     }
   }
   chunk.size = size;
-  // What passes read beyond the end must be points that exist.
-  for (; size % simd::lanes != 0; ++size) chunk.index[size] = n.index[stretches.first];
+  // What passes read beyond the end must be points that exist, and numbers.
+  for (; size % simd::lanes != 0; ++size) {
+    chunk.index[size] = n.index[stretches.first];
+    for (int k = 0; k < Chunk::rows_of_place + Chunk::signals; ++k)
+      chunk.rows[size + std::size_t{Chunk::room} * static_cast<std::size_t>(k)] = 0.0f;
+  }
 }
 
 }  // namespace SHORTSHOT_CODE

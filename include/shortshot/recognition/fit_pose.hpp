@@ -134,6 +134,7 @@ inline void rotation_of(const float (&q)[4], float (&rotation)[9]) noexcept {
   pose = Pose{};
   const Point source = centroid(pairs, &PointPair::source);
   const Point target = centroid(pairs, &PointPair::target);
+  if (!is_finite(source) || !is_finite(target)) return Status::no_pose;
   float covariance[3][3] = {};
   for (const PointPair& pair : pairs) {
     const Point s = pair.source - source;

@@ -163,7 +163,7 @@ template <class Index>
                                Extent& extent) noexcept {
   constexpr int count = 64;
   const float low = extent.low[axis];
-  const float width = (extent.high[axis] - low) / count;
+  const float width = extent.high[axis] / count - low / count;  // finite, whatever the extent
   if (!(width > 0.0f)) return false;
   for (int s = 0; s < count; ++s) slices[s] = 0;
   const auto slice_of = [&](float v) {

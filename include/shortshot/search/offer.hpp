@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "../base/quiet.hpp"
 #include "../cloud/cloud.hpp"
 #include "../config.hpp"
 #include "../status.hpp"
@@ -38,7 +39,7 @@ template <class Neighbors>
 inline void offer(Neighbors& out, const Point& p, std::uint32_t index, const Point& center,
                   float radius_squared) noexcept {
   const Neighbor v = neighbor_from(center, p, index);
-  if (!(v.d2 < radius_squared)) return;
+  if (!detail::is_below(v.d2, radius_squared)) return;
   if (out.size < out.capacity) put(out, out.size++, v);
   ++out.found;
 }

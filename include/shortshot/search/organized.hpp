@@ -61,6 +61,7 @@ class OrganizedSearch {
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     extend::clear(out, center);
     if (status() != Status::ok) return status();
+    if (!shortshot::is_finite(center)) return Status::ok;
     const float reach = extend::unfused(radius.value * 1.000001f);  // covers the rounding of d2
     const detail::PixelRange columns = window(columns_, center.x, center.z, reach, cloud_.width);
     const detail::PixelRange rows = window(rows_, center.y, center.z, reach, cloud_.height);
@@ -115,12 +116,14 @@ class OrganizedSearch {
     }
     bool front = false;
     bool behind = false;
+    bool nowhere = false;  // in the camera's own plane: in no pixel
     extend::for_each_valid(cloud_, [&](std::size_t, const Point& p) {
       front = front || p.z > 0.0f;
-      behind = behind || !(p.z > 0.0f);
+      behind = behind || p.z < 0.0f;
+      nowhere = nowhere || p.z == 0.0f;
     });
-    if (!front && !behind) return Status::empty_cloud;
-    if (front && behind) return Status::not_organized;
+    if (!front && !behind && !nowhere) return Status::empty_cloud;
+    if ((front && behind) || nowhere) return Status::not_organized;
 
     Line columns{};
     Line rows{};
@@ -128,10 +131,12 @@ class OrganizedSearch {
       columns.add_to_mean(x, u);
       rows.add_to_mean(y, v);
     });
+    if (!columns.is_finite() || !rows.is_finite()) return Status::not_organized;
     for_each_pixel([&](float u, float v, float x, float y) {
       columns.add_to_slope(x, u);
       rows.add_to_slope(y, v);
     });
+    if (!columns.is_finite() || !rows.is_finite()) return Status::not_organized;
     columns_ = columns.projection();
     rows_ = rows.projection();
     for_each_pixel([&](float u, float v, float x, float y) {
@@ -156,6 +161,9 @@ class OrganizedSearch {
     void add_to_slope(float slope, float pixel) noexcept {
       variance += extend::unfused((slope - mean_slope) * (slope - mean_slope));
       covariance += extend::unfused((slope - mean_slope) * (pixel - mean_pixel));
+    }
+    [[nodiscard]] bool is_finite() const noexcept {
+      return extend::math::is_finite(mean_slope) && extend::math::is_finite({variance, mean_pixel, covariance});
     }
     [[nodiscard]] detail::Projection projection() const noexcept {
       const float focal = variance > 0.0f ? covariance / variance : 0.0f;

@@ -29,11 +29,12 @@ struct Radius {
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
 
-/// A radius must be a positive number whose square is a normal one.
+/// A radius must be a positive number whose square is a normal one, and not so near to the largest that a neighbor's
+/// coordinates in a frame might have larger ones: at most about 1.8e19.
 [[nodiscard]] inline Status validate(Radius radius) noexcept {
   // Bits of positive numbers order as the numbers do; infinity's follow.
   const auto lies_from = [](std::uint32_t first, float value) {
-    return extend::math::bits_of(value) - first < 0x7F800000u - first;
+    return extend::math::bits_of(value) - first < 0x7F780000u - first;
   };
   return lies_from(1u, radius.value) && lies_from(0x00800000u, radius.squared) ? Status::ok : Status::bad_radius;
 }
