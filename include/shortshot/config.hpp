@@ -13,7 +13,8 @@
 
 #include "version.hpp"
 
-#if !defined(__GNUC__)
+#if !defined(__GNUC__) || defined(__INTEL_COMPILER) || (!defined(__clang__) && __GNUC__ < 9) || \
+    (defined(__clang__) && __clang_major__ < 10)
 #error "shortshot supports GCC 9 and clang 10 or newer: it needs their builtins and assembly statements"
 #elif !defined(__cplusplus) || __cplusplus < 201703L
 #error "shortshot supports C++17 or newer: compile with -std=c++17"

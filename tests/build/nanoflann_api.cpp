@@ -1,5 +1,5 @@
-// The nanoflann leaf finds the neighbors that looking at every point finds. Compiled twice: with the installed
-// nanoflann and with a stand-in that has the newer versions' interface (fake_nanoflann/).
+// The nanoflann leaf finds the neighbors that looking at every point finds. Compiled thrice: with the
+// installed nanoflann and with stand-ins that have older and newer versions' interfaces (fake_nanoflann/).
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>

@@ -1,5 +1,6 @@
 // shortshot/search/nanoflann.hpp: neighbors from nanoflann's k-d tree. Hosted only: building it allocates, and may
-// throw std::bad_alloc. A leaf: nothing else in the library includes it. Works with nanoflann 1.4 to 1.12.
+// throw std::bad_alloc. A leaf: nothing else in the library includes it. Written for what nanoflann 1.4.0
+// to 1.12 have in common.
 #pragma once
 
 #include <cstddef>
@@ -32,6 +33,19 @@ struct NanoflannCloud {
     return false;
   }
 };
+
+/// Parameters of a tree that buildIndex() builds. From 1.4.3 on constructors do it unless they are told not to, by
+/// flags that did not exist before.
+template <class Parameters>
+[[nodiscard]] auto not_built_yet(std::size_t leaf_size, int) -> decltype(Parameters().flags, Parameters()) {
+  Parameters parameters(leaf_size);
+  parameters.flags = decltype(parameters.flags)::SkipInitialBuildIndex;
+  return parameters;
+}
+template <class Parameters>
+[[nodiscard]] Parameters not_built_yet(std::size_t leaf_size, long) {
+  return Parameters(leaf_size);
+}
 
 /// A nanoflann result set that passes candidates straight on to a neighborhood: queries allocate nothing, and whether
 /// a candidate is a neighbor is decided by the same rule, in the same arithmetic, as in every other search.
@@ -76,7 +90,7 @@ class NanoflannSearch {
   /// search that finds nothing; status() says why.
   explicit NanoflannSearch(const CloudView& cloud, std::size_t leaf_size = 10)
       : points_{cloud, valid_points(cloud)},
-        tree_(3, points_, {leaf_size, nanoflann::KDTreeSingleIndexAdaptorFlags::SkipInitialBuildIndex}) {
+        tree_(3, points_, detail::not_built_yet<nanoflann::KDTreeSingleIndexAdaptorParams>(leaf_size, 0)) {
     if (!points_.valid.empty()) tree_.buildIndex();
   }
   NanoflannSearch(const NanoflannSearch&) = delete;  // the tree refers to points_
@@ -101,7 +115,7 @@ class NanoflannSearch {
   }
 
  private:
-  using Distance = nanoflann::L2_Simple_Adaptor<float, detail::NanoflannCloud, float, std::uint32_t>;
+  using Distance = nanoflann::L2_Simple_Adaptor<float, detail::NanoflannCloud, float>;
   using Tree = nanoflann::KDTreeSingleIndexAdaptor<Distance, detail::NanoflannCloud, 3, std::uint32_t>;
 
   [[nodiscard]] static std::vector<std::uint32_t> valid_points(const CloudView& cloud) {
