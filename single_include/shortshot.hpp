@@ -13900,8 +13900,8 @@ struct NanoflannCloud {
   }
 };
 
-/// Parameters of a tree that buildIndex() builds. From 1.4.3 on constructors do it unless they are told not to, by flags
-/// that did not exist before.
+/// Parameters of a tree that buildIndex() builds. From 1.4.3 on constructors do it unless they are told not to, by
+/// flags that did not exist before.
 template <class Parameters>
 [[nodiscard]] auto not_built_yet(std::size_t leaf_size, int) -> decltype(Parameters().flags, Parameters()) {
   Parameters parameters(leaf_size);

@@ -17,16 +17,16 @@ std::uintmax_t regular_file_size(const std::string& path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (status.type() == std::filesystem::file_type::not_found) {
-    throw InputError::at_byte(path, 0, "expected a point cloud file, found no file of this name");
+    throw InputError::about(path, "expected a point cloud file, found no file of this name");
   }
   if (status.type() == std::filesystem::file_type::directory) {
-    throw InputError::at_byte(path, 0, "expected a point cloud file, found a directory");
+    throw InputError::about(path, "expected a point cloud file, found a directory");
   }
   if (status.type() != std::filesystem::file_type::regular) {
-    throw InputError::at_byte(path, 0, "expected a regular file, found something else");
+    throw InputError::about(path, "expected a regular file, found something else");
   }
   const std::uintmax_t size_bytes = std::filesystem::file_size(path, error);
-  if (error) throw InputError::at_byte(path, 0, "cannot find out the file size: " + error.message());
+  if (error) throw InputError::about(path, "cannot find out the file size: " + error.message());
   return size_bytes;
 }
 
@@ -38,7 +38,7 @@ std::string zeroed_bytes(const std::string& path, std::uintmax_t size_bytes) {
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {
   }
-  throw InputError::at_byte(path, 0, "the file's " + std::to_string(size_bytes) + " bytes exceed the memory");
+  throw InputError::about(path, "the file's " + std::to_string(size_bytes) + " bytes exceed the memory");
 }
 
 std::string read_whole_file(const std::string& path) {
@@ -46,7 +46,7 @@ std::string read_whole_file(const std::string& path) {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   if (!file) {
-    throw InputError::at_byte(path, 0, "cannot open the file: " + std::generic_category().message(errno));
+    throw InputError::about(path, "cannot open the file: " + std::generic_category().message(errno));
   }
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   const auto read_bytes = static_cast<std::size_t>(file.gcount());

@@ -61,11 +61,11 @@ std::string path_error(const std::string& path) {
 TEST_CASE("cloud file errors: no such file, a directory, an empty or a foreign file") {
   const TemporaryDirectory directory;
   const std::string missing = directory.file("missing");
-  CHECK(path_error(missing) == missing + ": byte 0: expected a point cloud file, found no file of this name");
+  CHECK(path_error(missing) == missing + ": expected a point cloud file, found no file of this name");
   const std::string parent = directory.file("");
-  CHECK(path_error(parent) == parent + ": byte 0: expected a point cloud file, found a directory");
+  CHECK(path_error(parent) == parent + ": expected a point cloud file, found a directory");
   if (std::filesystem::exists("/dev/zero")) {
-    CHECK(path_error("/dev/zero") == "/dev/zero: byte 0: expected a regular file, found something else");
+    CHECK(path_error("/dev/zero") == "/dev/zero: expected a regular file, found something else");
   }
   const std::string expected = "FILE:1: expected a PLY file ('ply') or a PCD header ('VERSION', 'FIELDS'), ";
   CHECK(error_of("") == expected + "found an empty file");
