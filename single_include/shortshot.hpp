@@ -1295,7 +1295,6 @@ enum class [[nodiscard]] Status : std::uint8_t {
   needs_conversion,     ///< a message's field is no FLOAT32: copy_point_cloud2()
   unread_channel,       ///< a message has colors, normals or intensities that are not read; the view has the rest
   bad_field,            ///< a message's field x, y or z is of no type that there is, or several numbers
-  empty_field,          ///< a message's field says that it is no number (count 0)
   no_point_step,        ///< a message's points are of no byte
   too_many_points,      ///< a message has 2^32 points or more
   short_rows,           ///< a message's rows are shorter than their points, and its data is not as long as all points
@@ -1347,7 +1346,6 @@ inline namespace SHORTSHOT_CODE {
     case Status::needs_conversion: return "a field of the message is not FLOAT32: copy_point_cloud2() reads it";
     case Status::unread_channel: return "the message's colors, normals or intensities are not of types that are read";
     case Status::bad_field: return "x, y and z of the message are not one number each";
-    case Status::empty_field: return "a field of the message has count 0";
     case Status::no_point_step: return "the message's point_step is 0";
     case Status::too_many_points: return "the message has 2^32 points or more";
     case Status::short_rows: return "the message's row_step is less than width * point_step";
@@ -8608,13 +8606,13 @@ struct MessageField {
   std::uint64_t count;
 };
 
-/// The first field of a name.
+/// The first field of a name. A count of 0 means 1: some drivers never set it, and PCL reads them so.
 template <class Message>
 [[nodiscard]] MessageField field_of(const Message& message, const char* name) noexcept {
   for (const auto& field : message.fields) {
     if (!(field.name == name)) continue;
     MessageField found{true, message_number(field.offset), message_number(field.datatype), 1};
-    if constexpr (HasElementCount<std::decay_t<decltype(field)>>::value) found.count = message_number(field.count);
+    if constexpr (HasElementCount<std::decay_t<decltype(field)>>::value) found.count = field.count == 0 ? 1 : message_number(field.count);
     return found;
   }
   return {};
@@ -8670,8 +8668,7 @@ inline constexpr int damaged_channel = 4;
     case Status::needs_conversion: return 1;
     case Status::bad_field:
     case Status::unread_channel: return 2;
-    case Status::empty_field: return damaged_channel;
-    case Status::field_outside: return damaged_channel + 1;
+    case Status::field_outside: return damaged_channel;
     default: return missing_channel;
   }
 }
@@ -8692,7 +8689,6 @@ template <class Message>
     const std::uint64_t end = field.offset + (size == 0 ? 1 : size) * field.count;
     Status status = rule.accept(field.type, field.count);
     if (end > message_number(message.point_step)) status = Status::field_outside;
-    if (field.count == 0) status = Status::empty_field;
     if (severity(status) > severity(channel.status)) channel.status = status;
     if (severity(status) >= damaged_channel) continue;
     channel.offset[k] = static_cast<std::size_t>(field.offset);
@@ -8838,7 +8834,7 @@ inline namespace SHORTSHOT_TYPES {
 /// What a message has, and who reads it. Each is ok (view_point_cloud2() reads it, and so does copy_point_cloud2()),
 /// needs_conversion (copy_point_cloud2() alone), or why nobody does: no_coordinates, missing_colors, missing_normals,
 /// missing_intensities (there is none), bad_field, unread_channel (a type or a number of elements that is not read, or
-/// a part of it is missing), field_outside, empty_field.
+/// a part of it is missing), field_outside.
 struct PointCloud2Channels {
   Status coordinates;
   Status colors;
@@ -8867,7 +8863,7 @@ template <class Message>
 ///
 /// Statuses: unread_channel: the message has colors, normals or intensities that are not read in place: the view has
 /// the rest, and point_cloud2_channels() says which. All others leave an empty view: no_coordinates, empty_cloud (no
-/// point), no_point_step, bad_field, empty_field, field_outside (a field of any of these names), too_many_points,
+/// point), no_point_step, bad_field, field_outside (a field of any of these names), too_many_points,
 /// short_data, short_rows; and those that copy_point_cloud2() reads: other_byte_order, needs_conversion (coordinates),
 /// padded_rows. The first one that applies. No allocation; reentrant.
 template <class Message>

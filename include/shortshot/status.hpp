@@ -50,7 +50,6 @@ enum class [[nodiscard]] Status : std::uint8_t {
   needs_conversion,     ///< a message's field is no FLOAT32: copy_point_cloud2()
   unread_channel,       ///< a message has colors, normals or intensities that are not read; the view has the rest
   bad_field,            ///< a message's field x, y or z is of no type that there is, or several numbers
-  empty_field,          ///< a message's field says that it is no number (count 0)
   no_point_step,        ///< a message's points are of no byte
   too_many_points,      ///< a message has 2^32 points or more
   short_rows,           ///< a message's rows are shorter than their points, and its data is not as long as all points
@@ -102,7 +101,6 @@ inline namespace SHORTSHOT_CODE {
     case Status::needs_conversion: return "a field of the message is not FLOAT32: copy_point_cloud2() reads it";
     case Status::unread_channel: return "the message's colors, normals or intensities are not of types that are read";
     case Status::bad_field: return "x, y and z of the message are not one number each";
-    case Status::empty_field: return "a field of the message has count 0";
     case Status::no_point_step: return "the message's point_step is 0";
     case Status::too_many_points: return "the message has 2^32 points or more";
     case Status::short_rows: return "the message's row_step is less than width * point_step";

@@ -51,13 +51,13 @@ struct MessageField {
   std::uint64_t count;
 };
 
-/// The first field of a name.
+/// The first field of a name. A count of 0 means 1: some drivers never set it, and PCL reads them so.
 template <class Message>
 [[nodiscard]] MessageField field_of(const Message& message, const char* name) noexcept {
   for (const auto& field : message.fields) {
     if (!(field.name == name)) continue;
     MessageField found{true, message_number(field.offset), message_number(field.datatype), 1};
-    if constexpr (HasElementCount<std::decay_t<decltype(field)>>::value) found.count = message_number(field.count);
+    if constexpr (HasElementCount<std::decay_t<decltype(field)>>::value) found.count = field.count == 0 ? 1 : message_number(field.count);
     return found;
   }
   return {};
@@ -113,8 +113,7 @@ inline constexpr int damaged_channel = 4;
     case Status::needs_conversion: return 1;
     case Status::bad_field:
     case Status::unread_channel: return 2;
-    case Status::empty_field: return damaged_channel;
-    case Status::field_outside: return damaged_channel + 1;
+    case Status::field_outside: return damaged_channel;
     default: return missing_channel;
   }
 }
@@ -135,7 +134,6 @@ template <class Message>
     const std::uint64_t end = field.offset + (size == 0 ? 1 : size) * field.count;
     Status status = rule.accept(field.type, field.count);
     if (end > message_number(message.point_step)) status = Status::field_outside;
-    if (field.count == 0) status = Status::empty_field;
     if (severity(status) > severity(channel.status)) channel.status = status;
     if (severity(status) >= damaged_channel) continue;
     channel.offset[k] = static_cast<std::size_t>(field.offset);

@@ -14,7 +14,7 @@ inline namespace SHORTSHOT_TYPES {
 /// What a message has, and who reads it. Each is ok (view_point_cloud2() reads it, and so does copy_point_cloud2()),
 /// needs_conversion (copy_point_cloud2() alone), or why nobody does: no_coordinates, missing_colors, missing_normals,
 /// missing_intensities (there is none), bad_field, unread_channel (a type or a number of elements that is not read, or
-/// a part of it is missing), field_outside, empty_field.
+/// a part of it is missing), field_outside.
 struct PointCloud2Channels {
   Status coordinates;
   Status colors;
@@ -43,7 +43,7 @@ template <class Message>
 ///
 /// Statuses: unread_channel: the message has colors, normals or intensities that are not read in place: the view has
 /// the rest, and point_cloud2_channels() says which. All others leave an empty view: no_coordinates, empty_cloud (no
-/// point), no_point_step, bad_field, empty_field, field_outside (a field of any of these names), too_many_points,
+/// point), no_point_step, bad_field, field_outside (a field of any of these names), too_many_points,
 /// short_data, short_rows; and those that copy_point_cloud2() reads: other_byte_order, needs_conversion (coordinates),
 /// padded_rows. The first one that applies. No allocation; reentrant.
 template <class Message>

@@ -214,7 +214,7 @@ TEST_CASE("PointCloud2 of drivers: refused, each for a cause of its own") {
     }
     CloudMessage other = m;
     other.fields[field].count = 0;
-    check("count 0", other, {Status::empty_field, Status::empty_field});
+    check("count 0 means 1", other, {Status::ok, Status::ok, true});
     other.fields[field].count = 0xFFFFFFFFu;
     check("count 2^32 - 1", other, {Status::field_outside, Status::field_outside});
   }

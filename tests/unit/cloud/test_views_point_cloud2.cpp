@@ -123,7 +123,7 @@ TEST_CASE("PointCloud2: coordinates of another type, missing ones and fields out
     CHECK(view_of(m) == Status::bad_field);
     m = message();
     m.fields[field].count = 0;
-    CHECK(view_of(m) == Status::empty_field);
+    check_reads_as_sample(m);  // it means 1
     m = message();
     m.fields[field].name = "w";
     CHECK(view_of(m) == Status::no_coordinates);
