@@ -1298,10 +1298,12 @@ enum class [[nodiscard]] Status : std::uint8_t {
   no_point_step,        ///< a message's points are of no byte
   too_many_points,      ///< a message has 2^32 points or more
   short_rows,           ///< a message's rows are shorter than their points, and its data is not as long as all points
+  other_cloud,          ///< the search is over another cloud than the one that is described
+  coarse_coordinates,   ///< coordinates so large that floats lie farther apart than a 64th of the radius
 };
 // clang-format on
 
-inline constexpr int status_count = static_cast<int>(Status::short_rows) + 1;
+inline constexpr int status_count = static_cast<int>(Status::coarse_coordinates) + 1;
 
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
@@ -1349,6 +1351,9 @@ inline namespace SHORTSHOT_CODE {
     case Status::no_point_step: return "the message's point_step is 0";
     case Status::too_many_points: return "the message has 2^32 points or more";
     case Status::short_rows: return "the message's row_step is less than width * point_step";
+    case Status::other_cloud: return "the search was built over another cloud";
+    case Status::coarse_coordinates:
+      return "the coordinates are too large: float rounds them to steps that are not small against the radius";
   }
   return "unknown status";
 }
@@ -9768,6 +9773,61 @@ void clear_rows(Features<D>& out, std::size_t count, Status status) {
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_BATCH_FEATURES_HPP
 
+// shortshot/batch/plausible.hpp: what can be seen of numbers that cannot work, at next to no cost: a search over
+// another cloud, and coordinates too large for float to hold the shape. Hosted only.
+#ifndef SHORTSHOT_BATCH_PLAUSIBLE_HPP
+#define SHORTSHOT_BATCH_PLAUSIBLE_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+[[nodiscard]] inline float absolute(float v) noexcept { return v < 0.0f ? 0.0f - v : v; }
+
+/// Are up to eight of the neighbors where the cloud has them? The search says where they lie and which points they are:
+/// one over another cloud, or over what was in this memory before, says it of other places. To the last bit, but for
+/// compilers that compute in longer registers.
+[[nodiscard]] inline bool is_of(const CloudView& cloud, const Neighborhood& n) noexcept {
+  constexpr std::uint32_t most = 8;
+  const std::uint32_t looked_at = n.size < most ? n.size : most;
+  const auto agree = [](float a, float b) { return absolute(a - b) <= 1e-6f * absolute(a); };
+  for (std::uint32_t k = 0; k < looked_at; ++k) {
+    const auto i = static_cast<std::uint32_t>(std::uint64_t{n.size} * k / looked_at);
+    if (n.index[i] >= cloud.size) return false;
+    const Neighbor v = neighbor_from(n.center, point(cloud, n.index[i]), n.index[i]);
+    if (!agree(n.dx[i], v.dx) || !agree(n.dy[i], v.dy) || !agree(n.dz[i], v.dz)) return false;
+  }
+  return true;
+}
+
+/// Does the search know the cloud's first valid point? For the case that it has found nothing anywhere.
+template <class Search>
+[[nodiscard]] bool finds_a_point(const CloudView& cloud, const Search& search, Radius radius,
+                                 GrowingWorkspace& workspace) {
+  Point p;
+  Neighborhood n;
+  if (next_valid(cloud, 0, p) == cloud.size) return true;
+  return workspace.gather(search, p, radius, n) != Status::ok || (n.found > 0 && is_of(cloud, n));
+}
+
+/// How far apart floats lie at a point's largest coordinate.
+[[nodiscard]] inline float float_spacing(const Point& p) noexcept {
+  float largest = absolute(p.x);
+  if (absolute(p.y) > largest) largest = absolute(p.y);
+  if (absolute(p.z) > largest) largest = absolute(p.z);
+  return math::float_of(math::bits_of(largest) & 0x7F800000u) * 1.1920929e-7f;
+}
+
+/// Is what float can tell apart there more than a 64th of the radius? Measured on frames of a depth camera, R = 4 cm:
+/// of coordinates rounded to a 1000th of R, one local frame in 100 turns; to a 100th, 1 in 17; to a 64th, 1 in 9; to a
+/// 32nd, 1 in 5; to a 16th, 1 in 3, and half of all matches are lost, as by a millimeter of noise.
+[[nodiscard]] inline bool is_coarse(const Point& p, Radius radius) noexcept {
+  return float_spacing(p) > radius.value * (1.0f / 64.0f);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_PLAUSIBLE_HPP
+
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
@@ -9794,6 +9854,23 @@ template <class Index>
   key = keypoint(cloud, static_cast<std::size_t>(index));
   return true;
 }
+
+/// A copy where an argument is a part of the output, which is cleared first; else the argument.
+template <class Argument, class D>
+class SafeFrom {
+ public:
+  SafeFrom(const Argument& argument, const Features<D>& out) : argument_(argument) {
+    const void* const parts[] = {&out.keypoints, &out.frames, &out.neighbors};
+    is_part_ = std::find(std::begin(parts), std::end(parts), static_cast<const void*>(&argument)) != std::end(parts);
+    if (is_part_) copy_ = argument;
+  }
+  [[nodiscard]] const Argument& get() const noexcept { return is_part_ ? copy_ : argument_; }
+
+ private:
+  const Argument& argument_;
+  Argument copy_;
+  bool is_part_;
+};
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
@@ -9823,7 +9900,8 @@ class Extractor {
       return detail::describe_gathered<D, default_chunk_size>(n, sources, out.keypoints[row].position, support,
                                                               out.frames[row], values, out.frame_confidence[row]);
     };
-    return extract_all(cloud, search, keypoints, support, out, threads, finish, own...);
+    const detail::SafeFrom<std::vector<Key>, D> keys(keypoints, out);
+    return extract_all(cloud, search, keys.get(), support, out, threads, finish, own...);
   }
 
   /// The same in frames that the caller knows, one for each key point: bad_rows if there are not as many; bad_frame for
@@ -9836,11 +9914,13 @@ class Extractor {
       detail::clear_rows(out, keypoints.size(), Status::bad_rows);
       return Status::bad_rows;
     }
+    const detail::SafeFrom<std::vector<Frame>, D> kept(frames, out);
+    const detail::SafeFrom<std::vector<Key>, D> keys(keypoints, out);
     const auto finish = [&](const Neighborhood& n, const auto& sources, std::size_t row, float* values) {
-      out.frames[row] = frames[row];
-      return describe<D>(n, sources, frames[row], radius, values);
+      out.frames[row] = kept.get()[row];
+      return describe<D>(n, sources, out.frames[row], radius, values);
     };
-    return extract_all(cloud, search, keypoints, radius, out, threads, finish, own...);
+    return extract_all(cloud, search, keys.get(), radius, out, threads, finish, own...);
   }
 
  private:
@@ -9875,7 +9955,23 @@ class Extractor {
     };
     detail::for_blocks(executor, team, count, detail::keypoint_block, extract_rows);
     level(out.neighbors);
-    return Status::ok;
+    const Status sense = verdict(cloud, search, support, out);
+    if (sense != Status::ok) detail::clear_rows(out, count, sense);
+    return sense;
+  }
+
+  /// other_cloud if one row shows it: no other one can be believed then. coarse_coordinates if all rows are. Else ok.
+  template <class Search>
+  [[nodiscard]] Status verdict(const CloudView& cloud, const Search& search, const Support& support,
+                               const Features<D>& out) {
+    const auto rows = static_cast<std::ptrdiff_t>(out.size());
+    const auto count = [&](Status status) { return std::count(out.status.begin(), out.status.end(), status); };
+    if (rows == 0) return Status::ok;
+    if (count(Status::other_cloud) > 0) return Status::other_cloud;
+    if (count(Status::coarse_coordinates) == rows) return Status::coarse_coordinates;
+    if (std::count(out.neighbors.begin(), out.neighbors.end(), 0u) < rows) return Status::ok;
+    const Radius reach = detail::reach_of<D>(support);
+    return detail::finds_a_point(cloud, search, reach, workspaces_[0]) ? Status::ok : Status::other_cloud;
   }
 
   /// One row but for the zeros of a failure. The workspace grows until the neighbors fit.
@@ -9886,6 +9982,7 @@ class Extractor {
     using Kinds = typename D::Sources;
     const KeyPoint& key = out.keypoints[row];
     if (!is_finite(key.position)) return Status::invalid_keypoint;
+    if (detail::is_coarse(key.position, support.radius)) return Status::coarse_coordinates;
     const Color* const converted = lab_.data();
     const auto sources = detail::sources_at(Kinds{}, cloud, detail::key_for<D>(key), own..., converted);
     Status status = detail::status_of(Kinds{}, sources);
@@ -9895,6 +9992,7 @@ class Extractor {
     out.neighbors[row] = n.found;
     if (status != Status::ok) return status;
     if (n.size > max_neighbors) return Status::too_many_neighbors;
+    if (!detail::is_of(cloud, n)) return Status::other_cloud;
     return finish(n, sources, row, row_of(out, row));
   }
 
@@ -9942,7 +10040,7 @@ inline namespace SHORTSHOT_CODE {
 ///
 /// `search`     any search over this cloud (GridSearch, NanoflannSearch, ...)
 /// `keypoints`  indices into the cloud (of any integer type; pcl::Indices, too), or KeyPoints, which need not be points
-///              of it, each with its own color and intensity
+///              of it, each with its own color and intensity; out.keypoints, too (they are copied before)
 /// `support`    radii and viewpoint; a plain float is the radius in meters
 /// `out`        one row and one Status per key point; a key point that cannot be described spoils no other
 /// `threads`    how many threads share the work, or an executor, which runs it on threads that are there already; the
@@ -9965,8 +10063,9 @@ inline namespace SHORTSHOT_CODE {
 ///
 /// Returns ok if key points could be looked at at all, else why not, and every row has that status: empty_cloud,
 /// bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint, missing_colors,
-/// missing_normals, missing_intensities, or what the search's build() returned. For allocation and exceptions see
-/// Extractor.
+/// missing_normals, missing_intensities, what the search's build() returned, other_cloud (neighbors do not lie where
+/// the cloud has them: the search is over another one, or its memory was written to since) or coarse_coordinates (those
+/// of all key points; else of the row alone). For allocation and exceptions see Extractor.
 template <class D, class Search, class Key, class Threads = unsigned, class... Own>
 [[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
                              const Support& support, Features<D>& out, Threads&& threads = 1u, const Own&... own) {
@@ -10055,9 +10154,9 @@ inline namespace SHORTSHOT_CODE {
 /// has the key points, too.
 ///
 /// Statuses: empty_cloud, bad_view, bad_leaf, bad_radius, bad_viewpoint, missing_colors, missing_normals (for SHOT and
-/// CSHOT: estimate_normals() first), missing_intensities, bad_option (best_frames); `out` is empty, or all its rows
-/// have that status. Each row has a status of its own. Allocates what those three do, anew in every call; for cloud
-/// after cloud take them one by one.
+/// CSHOT: estimate_normals() first), missing_intensities, coarse_coordinates, bad_option (best_frames); `out` is empty,
+/// or all its rows have that status. Each row has a status of its own. Allocates what those three do, anew in every
+/// call; for cloud after cloud take them one by one.
 template <class D>
 [[nodiscard]] Status describe_cloud(const CloudView& cloud, const CloudOptions& options, Features<D>& out) {
   detail::clear_rows(out, 0, Status::ok);
@@ -13212,7 +13311,8 @@ template <class Rows>
   if (added == 0) return Status::ok;
   if (added >= no_row - codebook.codewords.size()) return Status::bad_rows;
 
-  const std::uint32_t number = instance_number(codebook, class_number(codebook, object_class), instance);
+  const std::string name(instance);  // a copy: the view may be of a name in the codebook, which a new class moves
+  const std::uint32_t number = instance_number(codebook, class_number(codebook, object_class), name);
   for (std::size_t row = 0; row < descriptors.count; ++row) {
     if (!is_ok(descriptors, row)) continue;
     append(codebook, descriptors, row);

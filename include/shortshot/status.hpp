@@ -53,10 +53,12 @@ enum class [[nodiscard]] Status : std::uint8_t {
   no_point_step,        ///< a message's points are of no byte
   too_many_points,      ///< a message has 2^32 points or more
   short_rows,           ///< a message's rows are shorter than their points, and its data is not as long as all points
+  other_cloud,          ///< the search is over another cloud than the one that is described
+  coarse_coordinates,   ///< coordinates so large that floats lie farther apart than a 64th of the radius
 };
 // clang-format on
 
-inline constexpr int status_count = static_cast<int>(Status::short_rows) + 1;
+inline constexpr int status_count = static_cast<int>(Status::coarse_coordinates) + 1;
 
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
@@ -104,6 +106,9 @@ inline namespace SHORTSHOT_CODE {
     case Status::no_point_step: return "the message's point_step is 0";
     case Status::too_many_points: return "the message has 2^32 points or more";
     case Status::short_rows: return "the message's row_step is less than width * point_step";
+    case Status::other_cloud: return "the search was built over another cloud";
+    case Status::coarse_coordinates:
+      return "the coordinates are too large: float rounds them to steps that are not small against the radius";
   }
   return "unknown status";
 }

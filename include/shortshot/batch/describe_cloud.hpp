@@ -38,9 +38,9 @@ inline namespace SHORTSHOT_CODE {
 /// has the key points, too.
 ///
 /// Statuses: empty_cloud, bad_view, bad_leaf, bad_radius, bad_viewpoint, missing_colors, missing_normals (for SHOT and
-/// CSHOT: estimate_normals() first), missing_intensities, bad_option (best_frames); `out` is empty, or all its rows
-/// have that status. Each row has a status of its own. Allocates what those three do, anew in every call; for cloud
-/// after cloud take them one by one.
+/// CSHOT: estimate_normals() first), missing_intensities, coarse_coordinates, bad_option (best_frames); `out` is empty,
+/// or all its rows have that status. Each row has a status of its own. Allocates what those three do, anew in every
+/// call; for cloud after cloud take them one by one.
 template <class D>
 [[nodiscard]] Status describe_cloud(const CloudView& cloud, const CloudOptions& options, Features<D>& out) {
   detail::clear_rows(out, 0, Status::ok);

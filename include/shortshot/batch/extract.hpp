@@ -20,7 +20,7 @@ inline namespace SHORTSHOT_CODE {
 ///
 /// `search`     any search over this cloud (GridSearch, NanoflannSearch, ...)
 /// `keypoints`  indices into the cloud (of any integer type; pcl::Indices, too), or KeyPoints, which need not be points
-///              of it, each with its own color and intensity
+///              of it, each with its own color and intensity; out.keypoints, too (they are copied before)
 /// `support`    radii and viewpoint; a plain float is the radius in meters
 /// `out`        one row and one Status per key point; a key point that cannot be described spoils no other
 /// `threads`    how many threads share the work, or an executor, which runs it on threads that are there already; the
@@ -43,8 +43,9 @@ inline namespace SHORTSHOT_CODE {
 ///
 /// Returns ok if key points could be looked at at all, else why not, and every row has that status: empty_cloud,
 /// bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint, missing_colors,
-/// missing_normals, missing_intensities, or what the search's build() returned. For allocation and exceptions see
-/// Extractor.
+/// missing_normals, missing_intensities, what the search's build() returned, other_cloud (neighbors do not lie where
+/// the cloud has them: the search is over another one, or its memory was written to since) or coarse_coordinates (those
+/// of all key points; else of the row alone). For allocation and exceptions see Extractor.
 template <class D, class Search, class Key, class Threads = unsigned, class... Own>
 [[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
                              const Support& support, Features<D>& out, Threads&& threads = 1u, const Own&... own) {

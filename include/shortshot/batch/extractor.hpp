@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <type_traits>
 #include <vector>
 
@@ -21,6 +22,7 @@
 #include "executor.hpp"
 #include "features.hpp"
 #include "growing_workspace.hpp"
+#include "plausible.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -48,6 +50,23 @@ template <class Index>
   key = keypoint(cloud, static_cast<std::size_t>(index));
   return true;
 }
+
+/// A copy where an argument is a part of the output, which is cleared first; else the argument.
+template <class Argument, class D>
+class SafeFrom {
+ public:
+  SafeFrom(const Argument& argument, const Features<D>& out) : argument_(argument) {
+    const void* const parts[] = {&out.keypoints, &out.frames, &out.neighbors};
+    is_part_ = std::find(std::begin(parts), std::end(parts), static_cast<const void*>(&argument)) != std::end(parts);
+    if (is_part_) copy_ = argument;
+  }
+  [[nodiscard]] const Argument& get() const noexcept { return is_part_ ? copy_ : argument_; }
+
+ private:
+  const Argument& argument_;
+  Argument copy_;
+  bool is_part_;
+};
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
@@ -77,7 +96,8 @@ class Extractor {
       return detail::describe_gathered<D, default_chunk_size>(n, sources, out.keypoints[row].position, support,
                                                               out.frames[row], values, out.frame_confidence[row]);
     };
-    return extract_all(cloud, search, keypoints, support, out, threads, finish, own...);
+    const detail::SafeFrom<std::vector<Key>, D> keys(keypoints, out);
+    return extract_all(cloud, search, keys.get(), support, out, threads, finish, own...);
   }
 
   /// The same in frames that the caller knows, one for each key point: bad_rows if there are not as many; bad_frame for
@@ -90,11 +110,13 @@ class Extractor {
       detail::clear_rows(out, keypoints.size(), Status::bad_rows);
       return Status::bad_rows;
     }
+    const detail::SafeFrom<std::vector<Frame>, D> kept(frames, out);
+    const detail::SafeFrom<std::vector<Key>, D> keys(keypoints, out);
     const auto finish = [&](const Neighborhood& n, const auto& sources, std::size_t row, float* values) {
-      out.frames[row] = frames[row];
-      return describe<D>(n, sources, frames[row], radius, values);
+      out.frames[row] = kept.get()[row];
+      return describe<D>(n, sources, out.frames[row], radius, values);
     };
-    return extract_all(cloud, search, keypoints, radius, out, threads, finish, own...);
+    return extract_all(cloud, search, keys.get(), radius, out, threads, finish, own...);
   }
 
  private:
@@ -129,7 +151,23 @@ class Extractor {
     };
     detail::for_blocks(executor, team, count, detail::keypoint_block, extract_rows);
     level(out.neighbors);
-    return Status::ok;
+    const Status sense = verdict(cloud, search, support, out);
+    if (sense != Status::ok) detail::clear_rows(out, count, sense);
+    return sense;
+  }
+
+  /// other_cloud if one row shows it: no other one can be believed then. coarse_coordinates if all rows are. Else ok.
+  template <class Search>
+  [[nodiscard]] Status verdict(const CloudView& cloud, const Search& search, const Support& support,
+                               const Features<D>& out) {
+    const auto rows = static_cast<std::ptrdiff_t>(out.size());
+    const auto count = [&](Status status) { return std::count(out.status.begin(), out.status.end(), status); };
+    if (rows == 0) return Status::ok;
+    if (count(Status::other_cloud) > 0) return Status::other_cloud;
+    if (count(Status::coarse_coordinates) == rows) return Status::coarse_coordinates;
+    if (std::count(out.neighbors.begin(), out.neighbors.end(), 0u) < rows) return Status::ok;
+    const Radius reach = detail::reach_of<D>(support);
+    return detail::finds_a_point(cloud, search, reach, workspaces_[0]) ? Status::ok : Status::other_cloud;
   }
 
   /// One row but for the zeros of a failure. The workspace grows until the neighbors fit.
@@ -140,6 +178,7 @@ class Extractor {
     using Kinds = typename D::Sources;
     const KeyPoint& key = out.keypoints[row];
     if (!is_finite(key.position)) return Status::invalid_keypoint;
+    if (detail::is_coarse(key.position, support.radius)) return Status::coarse_coordinates;
     const Color* const converted = lab_.data();
     const auto sources = detail::sources_at(Kinds{}, cloud, detail::key_for<D>(key), own..., converted);
     Status status = detail::status_of(Kinds{}, sources);
@@ -149,6 +188,7 @@ class Extractor {
     out.neighbors[row] = n.found;
     if (status != Status::ok) return status;
     if (n.size > max_neighbors) return Status::too_many_neighbors;
+    if (!detail::is_of(cloud, n)) return Status::other_cloud;
     return finish(n, sources, row, row_of(out, row));
   }
 

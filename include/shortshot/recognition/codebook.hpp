@@ -166,7 +166,8 @@ template <class Rows>
   if (added == 0) return Status::ok;
   if (added >= no_row - codebook.codewords.size()) return Status::bad_rows;
 
-  const std::uint32_t number = instance_number(codebook, class_number(codebook, object_class), instance);
+  const std::string name(instance);  // a copy: the view may be of a name in the codebook, which a new class moves
+  const std::uint32_t number = instance_number(codebook, class_number(codebook, object_class), name);
   for (std::size_t row = 0; row < descriptors.count; ++row) {
     if (!is_ok(descriptors, row)) continue;
     append(codebook, descriptors, row);

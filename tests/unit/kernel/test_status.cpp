@@ -110,6 +110,10 @@ TEST_CASE("status: every value is reached by some call") {
   REQUIRE(ss::extract(cloud.view(), ss::BruteSearch{cloud.view()}, std::vector{1, 2}, radius, features) == Status::ok);
   REQUIRE(ss::keep_best_frames(features, 0.5f) == Status::ok);
   reached.insert(features.status.begin(), features.status.end());
+  const TestCloud other = blob(2, 500);
+  const std::vector<ss::KeyPoint> far{{{1e7f, 0.0f, 0.0f}, {}}};
+  reached.insert(ss::extract(cloud.view(), ss::BruteSearch{other.view()}, std::vector{1, 2}, radius, features));
+  reached.insert(ss::extract(cloud.view(), ss::BruteSearch{cloud.view()}, far, radius, features));
   for (int value = 0; value < ss::status_count; ++value) {
     const auto status = static_cast<Status>(value);
     CAPTURE(status);

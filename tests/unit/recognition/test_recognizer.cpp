@@ -65,6 +65,16 @@ TEST_CASE("recognizer: an instance is known by both of its names") {
   CHECK(recognizer.codeword_count() == 220);
 }
 
+TEST_CASE("recognizer: names may be its own, which a new class moves in memory") {
+  ss::Recognizer recognizer;
+  REQUIRE(ss::train(recognizer, cup.rows(), synthetic_layout, origin, "cup", "a") == Status::ok);
+  for (const char* name : {"b", "c", "d", "e", "f"}) {
+    const std::string& first = recognizer.class_name(0);
+    REQUIRE(ss::train(recognizer, cup.rows(), recognizer.layout(), origin, name, first) == Status::ok);
+    CHECK(recognizer.instance_name(recognizer.instance_count() - 1) == "cup");
+  }
+}
+
 TEST_CASE("recognizer: all votes of an object, wherever it was moved, land on its center") {
   const ss::Recognizer recognizer = trained();
   Random random(7);
