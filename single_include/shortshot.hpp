@@ -6970,8 +6970,12 @@ template <class Index>
   std::size_t above = slices[last];
   for (; below <= valid / 128 && first < last; below += slices[first]) ++first;
   for (; above <= valid / 128 && first < last; above += slices[last]) --last;
-  extent.low[axis] = low + unfused(static_cast<float>(first) * width);
-  extent.high[axis] = low + unfused(static_cast<float>(last + 1) * width);
+  const auto begin_of = [&](int slice) {
+    const float half = unfused(static_cast<float>(slice) * (0.5f * width));
+    return (low + half) + half;
+  };
+  extent.low[axis] = begin_of(first);
+  extent.high[axis] = begin_of(last + 1);
   return 2 * (last + 1 - first) <= count;
 }
 
@@ -9371,54 +9375,18 @@ void for_blocks(Executor& executor, std::size_t threads, std::size_t count, std:
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_BATCH_EXECUTOR_HPP
 
-// shortshot/batch/growing_workspace.hpp: a workspace that grows: one per thread. Hosted only: allocates.
-#ifndef SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
-#define SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
+// shortshot/batch/normal_estimator.hpp: the normals of a few points that follow each other, estimated together. Hosted
+// only: allocates.
+#ifndef SHORTSHOT_BATCH_NORMAL_ESTIMATOR_HPP
+#define SHORTSHOT_BATCH_NORMAL_ESTIMATOR_HPP
+
+// shortshot/batch/candidate_chunk.hpp: points that may be neighbors of a group of points, and what they add to moments.
+// Hosted only.
+#ifndef SHORTSHOT_BATCH_CANDIDATE_CHUNK_HPP
+#define SHORTSHOT_BATCH_CANDIDATE_CHUNK_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
-
-class GrowingWorkspace {
- public:
-  [[nodiscard]] Neighborhood neighborhood() noexcept {
-    const std::size_t n = index_.size();
-    float* p = floats_.data();
-    return {p, p + n, p + 2 * n, p + 3 * n, index_.data(), static_cast<std::uint32_t>(n), 0, 0, {}};
-  }
-
-  /// A search's gather(); grows until the neighbors fit.
-  template <class Search>
-  [[nodiscard]] Status gather(const Search& search, const Point& center, Radius radius, Neighborhood& n) {
-    n = neighborhood();
-    const Status status = search.gather(center, radius, n);
-    if (status != Status::too_many_neighbors || n.found > max_neighbors) return status;
-    reserve(n.found);
-    n = neighborhood();
-    return search.gather(center, radius, n);
-  }
-
-  /// Room for `neighbors`; half as much again where it has to grow, so that it seldom does.
-  void reserve(std::size_t neighbors) {
-    if (neighbors <= index_.size()) return;
-    const std::size_t capacity = neighbors + neighbors / 2;
-    floats_.resize(4 * capacity);
-    index_.resize(capacity);
-  }
-
- private:
-  std::vector<float> floats_;
-  std::vector<std::uint32_t> index_;
-};
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// Points that a thread takes at a time: about a quarter of a millisecond of work.
-inline constexpr std::size_t normal_block = 512;
 
 /// Some of the points that may be neighbors of a group: where they are, and their terms of moments.
 class CandidateChunk {
@@ -9482,6 +9450,179 @@ class CandidateChunk {
   return result;
 }
 
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_CANDIDATE_CHUNK_HPP
+
+// shortshot/batch/growing_workspace.hpp: a workspace that grows: one per thread. Hosted only: allocates.
+#ifndef SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
+#define SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+class GrowingWorkspace {
+ public:
+  [[nodiscard]] Neighborhood neighborhood() noexcept {
+    const std::size_t n = index_.size();
+    float* p = floats_.data();
+    return {p, p + n, p + 2 * n, p + 3 * n, index_.data(), static_cast<std::uint32_t>(n), 0, 0, {}};
+  }
+
+  /// A search's gather(); grows until the neighbors fit.
+  template <class Search>
+  [[nodiscard]] Status gather(const Search& search, const Point& center, Radius radius, Neighborhood& n) {
+    n = neighborhood();
+    const Status status = search.gather(center, radius, n);
+    if (status != Status::too_many_neighbors || n.found > max_neighbors) return status;
+    reserve(n.found);
+    n = neighborhood();
+    return search.gather(center, radius, n);
+  }
+
+  /// Room for `neighbors`; half as much again where it has to grow, so that it seldom does.
+  void reserve(std::size_t neighbors) {
+    if (neighbors <= index_.size()) return;
+    const std::size_t capacity = neighbors + neighbors / 2;
+    floats_.resize(4 * capacity);
+    index_.resize(capacity);
+  }
+
+ private:
+  std::vector<float> floats_;
+  std::vector<std::uint32_t> index_;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
+
+// shortshot/batch/known_normals.hpp: normals of places where points lie on top of each other, to be computed once.
+// Hosted only.
+#ifndef SHORTSHOT_BATCH_KNOWN_NORMALS_HPP
+#define SHORTSHOT_BATCH_KNOWN_NORMALS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// The normals of the last few crowded places. Many drivers write (0, 0, 0) for "no measurement": as many points in one
+/// place, each of which has all the others as neighbors. One per thread and call; of two places that meet in an entry
+/// the later one stays.
+class KnownNormals {
+ public:
+  /// Points that are looked at together, all of them in one place, may get other roundings than one alone.
+  enum class Way : std::uint8_t { none, together, alone };
+
+  /// Fewest neighbors of a place that is worth an entry: all others leave the entries to those.
+  static constexpr std::uint32_t crowd = 64;
+
+  /// Null if it is not known.
+  [[nodiscard]] const SurfaceNormal* find(const Point& p, Way way) const noexcept {
+    const Entry& entry = entries_[slot_of(p, way)];
+    const bool is_it = entry.way == way && entry.at.x == p.x && entry.at.y == p.y && entry.at.z == p.z;
+    return is_it ? &entry.normal : nullptr;
+  }
+
+  void keep(const Point& p, Way way, std::uint32_t neighbors, const SurfaceNormal& normal) noexcept {
+    if (neighbors >= crowd) entries_[slot_of(p, way)] = {p, normal, way};
+  }
+
+ private:
+  struct Entry {
+    Point at;
+    SurfaceNormal normal;
+    Way way;
+  };
+
+  static constexpr std::size_t slots = 256;
+
+  [[nodiscard]] static std::size_t slot_of(const Point& p, Way way) noexcept {
+    auto hash = static_cast<std::uint32_t>(way);
+    for (const float v : {p.x, p.y, p.z}) hash = (hash ^ math::bits_of(v + 0.0f)) * 2654435769u;  // -0 is 0
+    return hash >> 24;
+  }
+
+  std::array<Entry, slots> entries_{};
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_KNOWN_NORMALS_HPP
+
+// shortshot/batch/plausible.hpp: what can be seen of numbers that cannot work, at next to no cost: a search over
+// another cloud, and coordinates too large for float to hold the shape. Hosted only.
+#ifndef SHORTSHOT_BATCH_PLAUSIBLE_HPP
+#define SHORTSHOT_BATCH_PLAUSIBLE_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+[[nodiscard]] inline float absolute(float v) noexcept { return v < 0.0f ? 0.0f - v : v; }
+
+/// Are up to eight of the neighbors where the cloud has them? The search says where they lie and which points they are:
+/// one over another cloud, or over what was in this memory before, says it of other places. To the last bit, but for
+/// compilers that compute in longer registers.
+[[nodiscard]] inline bool is_of(const CloudView& cloud, const Point& center, const Neighborhood& n) noexcept {
+  constexpr std::uint32_t most = 8;
+  const std::uint32_t looked_at = n.size < most ? n.size : most;
+  const auto agree = [](float a, float b) { return absolute(a - b) <= 1e-6f * absolute(a); };
+  for (std::uint32_t k = 0; k < looked_at; ++k) {
+    const auto i = static_cast<std::uint32_t>(std::uint64_t{n.size} * k / looked_at);
+    if (n.index[i] >= cloud.size) return false;
+    const Neighbor v = neighbor_from(center, point(cloud, n.index[i]), n.index[i]);
+    if (!agree(n.dx[i], v.dx) || !agree(n.dy[i], v.dy) || !agree(n.dz[i], v.dz)) return false;
+  }
+  return true;
+}
+
+/// Does the search know the cloud's first valid point? For the case that it has found nothing anywhere.
+template <class Search>
+[[nodiscard]] bool finds_a_point(const CloudView& cloud, const Search& search, Radius radius,
+                                 GrowingWorkspace& workspace) {
+  Point p;
+  Neighborhood n;
+  if (next_valid(cloud, 0, p) == cloud.size) return true;
+  return workspace.gather(search, p, radius, n) != Status::ok || (n.found > 0 && is_of(cloud, p, n));
+}
+
+/// How far apart floats lie at a point's largest coordinate.
+[[nodiscard]] inline float float_spacing(const Point& p) noexcept {
+  float largest = absolute(p.x);
+  if (absolute(p.y) > largest) largest = absolute(p.y);
+  if (absolute(p.z) > largest) largest = absolute(p.z);
+  return math::float_of(math::bits_of(largest) & 0x7F800000u) * 1.1920929e-7f;
+}
+
+/// Is what float can tell apart there more than a 64th of the radius? Measured on frames of a depth camera, R = 4 cm:
+/// of coordinates rounded to a 1000th of R, one local frame in 100 turns; to a 100th, 1 in 17; to a 64th, 1 in 9; to a
+/// 32nd, 1 in 5; to a 16th, 1 in 3, and half of all matches are lost, as by a millimeter of noise.
+[[nodiscard]] inline bool is_coarse(const Point& p, Radius radius) noexcept {
+  return float_spacing(p) > radius.value * (1.0f / 64.0f);
+}
+
+/// All valid points of a cloud: the first one that is not answers.
+[[nodiscard]] inline bool all_are_coarse(const CloudView& cloud, Radius radius) noexcept {
+  Point p;
+  std::size_t i = next_valid(cloud, 0, p);
+  const bool any = i < cloud.size;
+  while (i < cloud.size && is_coarse(p, radius)) i = next_valid(cloud, i + 1, p);
+  return i == cloud.size && any;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_PLAUSIBLE_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// What a thread keeps from block to block.
+struct NormalMemory {
+  GrowingWorkspace workspace;
+  KnownNormals known;
+  bool other_cloud = false;  ///< the search has named points that lie elsewhere in the cloud
+};
+
 /// Estimates normals of a few points at a time. Points that follow each other in a cloud mostly lie side by side: one
 /// search, a little wider, finds the neighbors of all, and what a neighbor adds to moments about their middle is
 /// computed once for all of them.
@@ -9489,13 +9630,8 @@ template <class Search>
 class NormalEstimator {
  public:
   NormalEstimator(const CloudView& cloud, const Search& search, Radius radius, const Viewpoint& viewpoint,
-                  GrowingWorkspace& workspace, SurfaceNormal* normals) noexcept
-      : cloud_(cloud),
-        search_(search),
-        radius_(radius),
-        viewpoint_(viewpoint),
-        workspace_(workspace),
-        normals_(normals) {
+                  NormalMemory& memory, SurfaceNormal* normals) noexcept
+      : cloud_(cloud), search_(search), radius_(radius), viewpoint_(viewpoint), memory_(memory), normals_(normals) {
     const bool image = cloud.height > 1 && cloud.size % cloud.height == 0 && cloud.size / cloud.height == cloud.width;
     row_ = image ? cloud.width : 0;
   }
@@ -9535,10 +9671,16 @@ class NormalEstimator {
   /// Points [first, first + count) of the group, or each half of them if they lie too far apart.
   void estimate_part(std::size_t first, std::size_t count) {
     SurfaceNormal found[group] = {};
+    const bool one_place = are_in_one_place(first, count);
+    const SurfaceNormal* const known =
+        one_place ? memory_.known.find(place(first), KnownNormals::Way::together) : nullptr;
     Neighborhood candidates;
     Radius wide = radius_;
-    if (gather_for_all(first, count, candidates, wide)) {
+    if (known != nullptr) {
+      std::fill_n(found + first, count, *known);
+    } else if (gather_for_all(first, count, candidates, wide)) {
       estimate_together(first, count, candidates, wide, found);
+      if (one_place) memory_.known.keep(place(first), KnownNormals::Way::together, candidates.found, found[first]);
     } else if (count > smallest_part) {
       estimate_part(first, count / 2);
       estimate_part(first + count / 2, count / 2);
@@ -9569,8 +9711,7 @@ class NormalEstimator {
     }
     wide = Radius((radius_.value + simd::sqrt(farthest_d2)) * 1.00001f);  // more than all roundings
     const float widest = (count > smallest_part ? 1.75f : 3.0f) * radius_.value;
-    return wide.value < widest && wide.value < largest_shared && validate(wide) == Status::ok &&
-           workspace_.gather(search_, center, wide, candidates) == Status::ok;
+    return wide.value < widest && wide.value < largest_shared && validate(wide) == Status::ok && gather(center, wide, candidates) == Status::ok;
   }
 
   /// Normals of these points; zeros for those that need to be looked at alone.
@@ -9602,17 +9743,41 @@ class NormalEstimator {
   }
 
   void estimate_alone(std::size_t k) {
+    const Point p = place(k);
+    SurfaceNormal& normal = normals_[index_[k]];
+    if (const SurfaceNormal* const known = memory_.known.find(p, KnownNormals::Way::alone)) {
+      normal = *known;
+      return;
+    }
     Neighborhood n;
     SurfaceNormal found{};
-    if (workspace_.gather(search_, {x_[k], y_[k], z_[k]}, radius_, n) != Status::ok) return;
-    if (estimate_normal(n, radius_, found, viewpoint_) == Status::ok) normals_[index_[k]] = found;
+    const bool is_found =
+        gather(p, radius_, n) == Status::ok && estimate_normal(n, radius_, found, viewpoint_) == Status::ok;
+    if (is_found) normal = found;
+    memory_.known.keep(p, KnownNormals::Way::alone, n.found, normal);
+  }
+
+  /// Also notes whether the search is one over another cloud.
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighborhood& n) {
+    const Status status = memory_.workspace.gather(search_, center, radius, n);
+    if (status == Status::ok && !is_of(cloud_, center, n)) memory_.other_cloud = true;
+    return status;
+  }
+
+  [[nodiscard]] Point place(std::size_t k) const noexcept { return {x_[k], y_[k], z_[k]}; }
+
+  [[nodiscard]] bool are_in_one_place(std::size_t first, std::size_t count) const noexcept {
+    for (std::size_t k = first + 1; k < first + count; ++k) {
+      if (!(x_[k] == x_[first] && y_[k] == y_[first] && z_[k] == z_[first])) return false;
+    }
+    return true;
   }
 
   const CloudView cloud_;
   const Search& search_;
   const Radius radius_;
   const Viewpoint viewpoint_;
-  GrowingWorkspace& workspace_;
+  NormalMemory& memory_;
   SurfaceNormal* const normals_;
   std::size_t index_[group];
   float x_[group];
@@ -9620,6 +9785,16 @@ class NormalEstimator {
   float z_[group];
   std::size_t row_;  // of an image, in points; 0 for other clouds
 };
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_NORMAL_ESTIMATOR_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Points that a thread takes at a time: about a quarter of a millisecond of work.
+inline constexpr std::size_t normal_block = 512;
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
@@ -9640,9 +9815,14 @@ inline namespace SHORTSHOT_CODE {
 ///              for any number, and for any search
 ///
 /// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, bad_viewpoint (not
-/// finite), or what the search's build() returned; `normals` is empty then. Allocates the normals (none, if they fit
-/// already) and about 30 bytes for each neighbor of the largest neighborhood and each thread. May throw what
-/// extract() may; `normals` is empty then, or NaN where none was estimated by then.
+/// finite), what the search's build() returned, coarse_coordinates (at every point floats lie farther apart than a 64th
+/// of the radius), or other_cloud (as in extract()); `normals` is empty then.
+///
+/// The cost is points times neighbors: with a radius as large as the cloud, the square of its points. Points that lie
+/// on top of each other in crowded places, as (0, 0, 0) for "no measurement", are looked at once for each place.
+/// Allocates the normals (none, if they fit already), and for each thread 8 KB and about 30 bytes for each neighbor of
+/// the largest neighborhood. May throw what extract() may; `normals` is empty then, or NaN where none was estimated by
+/// then.
 template <class Search, class Threads = unsigned>
 [[nodiscard]] Status estimate_normals(const CloudView& cloud, const Search& search, Radius radius,
                                       const Viewpoint& viewpoint, std::vector<SurfaceNormal>& normals,
@@ -9651,20 +9831,28 @@ template <class Search, class Threads = unsigned>
   Status status = detail::validate_search(cloud, search);
   if (status == Status::ok) status = validate(radius);
   if (status == Status::ok) status = validate(viewpoint);
+  if (status == Status::ok && detail::all_are_coarse(cloud, radius)) status = Status::coarse_coordinates;
   if (status != Status::ok) return status;
 
   auto&& executor = detail::executor_of(threads, (cloud.size + detail::normal_block - 1) / detail::normal_block);
   const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-  std::vector<detail::GrowingWorkspace> workspaces(team);
-  for (detail::GrowingWorkspace& workspace : workspaces) workspace.reserve(1024);
+  std::vector<detail::NormalMemory> memories(team);
+  for (detail::NormalMemory& memory : memories) memory.workspace.reserve(1024);
   constexpr float none = std::numeric_limits<float>::quiet_NaN();
   normals.assign(cloud.size, {none, none, none});  // and so they stay where an executor throws before their turn
   detail::for_blocks(
       executor, team, cloud.size, detail::normal_block, [&](std::size_t thread, std::size_t begin, std::size_t end) {
-        detail::NormalEstimator<Search>(cloud, search, radius, viewpoint, workspaces[thread], normals.data())
+        detail::NormalEstimator<Search>(cloud, search, radius, viewpoint, memories[thread], normals.data())
             .estimate(begin, end);
       });
-  return Status::ok;
+  bool other_cloud = false;
+  for (const detail::NormalMemory& memory : memories) other_cloud = other_cloud || memory.other_cloud;
+  const auto has_one = [](const SurfaceNormal& n) { return n.x == n.x; };
+  if (!other_cloud && std::none_of(normals.begin(), normals.end(), has_one)) {
+    other_cloud = !detail::finds_a_point(cloud, search, radius, memories[0].workspace);
+  }
+  if (other_cloud) normals.clear();
+  return other_cloud ? Status::other_cloud : Status::ok;
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -9772,61 +9960,6 @@ void clear_rows(Features<D>& out, std::size_t count, Status status) {
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_BATCH_FEATURES_HPP
-
-// shortshot/batch/plausible.hpp: what can be seen of numbers that cannot work, at next to no cost: a search over
-// another cloud, and coordinates too large for float to hold the shape. Hosted only.
-#ifndef SHORTSHOT_BATCH_PLAUSIBLE_HPP
-#define SHORTSHOT_BATCH_PLAUSIBLE_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-[[nodiscard]] inline float absolute(float v) noexcept { return v < 0.0f ? 0.0f - v : v; }
-
-/// Are up to eight of the neighbors where the cloud has them? The search says where they lie and which points they are:
-/// one over another cloud, or over what was in this memory before, says it of other places. To the last bit, but for
-/// compilers that compute in longer registers.
-[[nodiscard]] inline bool is_of(const CloudView& cloud, const Neighborhood& n) noexcept {
-  constexpr std::uint32_t most = 8;
-  const std::uint32_t looked_at = n.size < most ? n.size : most;
-  const auto agree = [](float a, float b) { return absolute(a - b) <= 1e-6f * absolute(a); };
-  for (std::uint32_t k = 0; k < looked_at; ++k) {
-    const auto i = static_cast<std::uint32_t>(std::uint64_t{n.size} * k / looked_at);
-    if (n.index[i] >= cloud.size) return false;
-    const Neighbor v = neighbor_from(n.center, point(cloud, n.index[i]), n.index[i]);
-    if (!agree(n.dx[i], v.dx) || !agree(n.dy[i], v.dy) || !agree(n.dz[i], v.dz)) return false;
-  }
-  return true;
-}
-
-/// Does the search know the cloud's first valid point? For the case that it has found nothing anywhere.
-template <class Search>
-[[nodiscard]] bool finds_a_point(const CloudView& cloud, const Search& search, Radius radius,
-                                 GrowingWorkspace& workspace) {
-  Point p;
-  Neighborhood n;
-  if (next_valid(cloud, 0, p) == cloud.size) return true;
-  return workspace.gather(search, p, radius, n) != Status::ok || (n.found > 0 && is_of(cloud, n));
-}
-
-/// How far apart floats lie at a point's largest coordinate.
-[[nodiscard]] inline float float_spacing(const Point& p) noexcept {
-  float largest = absolute(p.x);
-  if (absolute(p.y) > largest) largest = absolute(p.y);
-  if (absolute(p.z) > largest) largest = absolute(p.z);
-  return math::float_of(math::bits_of(largest) & 0x7F800000u) * 1.1920929e-7f;
-}
-
-/// Is what float can tell apart there more than a 64th of the radius? Measured on frames of a depth camera, R = 4 cm:
-/// of coordinates rounded to a 1000th of R, one local frame in 100 turns; to a 100th, 1 in 17; to a 64th, 1 in 9; to a
-/// 32nd, 1 in 5; to a 16th, 1 in 3, and half of all matches are lost, as by a millimeter of noise.
-[[nodiscard]] inline bool is_coarse(const Point& p, Radius radius) noexcept {
-  return float_spacing(p) > radius.value * (1.0f / 64.0f);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_BATCH_PLAUSIBLE_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -9992,7 +10125,7 @@ class Extractor {
     out.neighbors[row] = n.found;
     if (status != Status::ok) return status;
     if (n.size > max_neighbors) return Status::too_many_neighbors;
-    if (!detail::is_of(cloud, n)) return Status::other_cloud;
+    if (!detail::is_of(cloud, key.position, n)) return Status::other_cloud;
     return finish(n, sources, row, row_of(out, row));
   }
 

@@ -188,7 +188,7 @@ class Extractor {
     out.neighbors[row] = n.found;
     if (status != Status::ok) return status;
     if (n.size > max_neighbors) return Status::too_many_neighbors;
-    if (!detail::is_of(cloud, n)) return Status::other_cloud;
+    if (!detail::is_of(cloud, key.position, n)) return Status::other_cloud;
     return finish(n, sources, row, row_of(out, row));
   }
 

@@ -22,14 +22,14 @@ inline namespace SHORTSHOT_CODE {
 /// Are up to eight of the neighbors where the cloud has them? The search says where they lie and which points they are:
 /// one over another cloud, or over what was in this memory before, says it of other places. To the last bit, but for
 /// compilers that compute in longer registers.
-[[nodiscard]] inline bool is_of(const CloudView& cloud, const Neighborhood& n) noexcept {
+[[nodiscard]] inline bool is_of(const CloudView& cloud, const Point& center, const Neighborhood& n) noexcept {
   constexpr std::uint32_t most = 8;
   const std::uint32_t looked_at = n.size < most ? n.size : most;
   const auto agree = [](float a, float b) { return absolute(a - b) <= 1e-6f * absolute(a); };
   for (std::uint32_t k = 0; k < looked_at; ++k) {
     const auto i = static_cast<std::uint32_t>(std::uint64_t{n.size} * k / looked_at);
     if (n.index[i] >= cloud.size) return false;
-    const Neighbor v = neighbor_from(n.center, point(cloud, n.index[i]), n.index[i]);
+    const Neighbor v = neighbor_from(center, point(cloud, n.index[i]), n.index[i]);
     if (!agree(n.dx[i], v.dx) || !agree(n.dy[i], v.dy) || !agree(n.dz[i], v.dz)) return false;
   }
   return true;
@@ -42,7 +42,7 @@ template <class Search>
   Point p;
   Neighborhood n;
   if (next_valid(cloud, 0, p) == cloud.size) return true;
-  return workspace.gather(search, p, radius, n) != Status::ok || (n.found > 0 && is_of(cloud, n));
+  return workspace.gather(search, p, radius, n) != Status::ok || (n.found > 0 && is_of(cloud, p, n));
 }
 
 /// How far apart floats lie at a point's largest coordinate.
@@ -58,6 +58,15 @@ template <class Search>
 /// 32nd, 1 in 5; to a 16th, 1 in 3, and half of all matches are lost, as by a millimeter of noise.
 [[nodiscard]] inline bool is_coarse(const Point& p, Radius radius) noexcept {
   return float_spacing(p) > radius.value * (1.0f / 64.0f);
+}
+
+/// All valid points of a cloud: the first one that is not answers.
+[[nodiscard]] inline bool all_are_coarse(const CloudView& cloud, Radius radius) noexcept {
+  Point p;
+  std::size_t i = next_valid(cloud, 0, p);
+  const bool any = i < cloud.size;
+  while (i < cloud.size && is_coarse(p, radius)) i = next_valid(cloud, i + 1, p);
+  return i == cloud.size && any;
 }
 
 }  // namespace SHORTSHOT_CODE

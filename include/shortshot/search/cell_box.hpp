@@ -178,8 +178,12 @@ template <class Index>
   std::size_t above = slices[last];
   for (; below <= valid / 128 && first < last; below += slices[first]) ++first;
   for (; above <= valid / 128 && first < last; above += slices[last]) --last;
-  extent.low[axis] = low + unfused(static_cast<float>(first) * width);
-  extent.high[axis] = low + unfused(static_cast<float>(last + 1) * width);
+  const auto begin_of = [&](int slice) {
+    const float half = unfused(static_cast<float>(slice) * (0.5f * width));
+    return (low + half) + half;
+  };
+  extent.low[axis] = begin_of(first);
+  extent.high[axis] = begin_of(last + 1);
   return 2 * (last + 1 - first) <= count;
 }
 

@@ -221,6 +221,7 @@ TEST_CASE("estimate_normals: what cannot be estimated has a status and no normal
 
 TEST_CASE("estimate_normals: coordinates at the ends of float's range do no harm") {
   TestCloud cloud;
+  cloud.add(0.0f, 0.0f, 0.0f);
   for (int k = 0; k < 16; ++k) {
     const float sign = k % 2 == 0 ? 1.0f : -1.0f;
     cloud.add(sign * 3e38f, -sign * 3e38f, static_cast<float>(k));

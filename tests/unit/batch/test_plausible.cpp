@@ -45,6 +45,9 @@ void check(const TestCloud& cloud, const Search& search, Status expected) {
   REQUIRE(features.size() == some.size());
   for (const Status status : features.status) CHECK(status == expected);
   if (expected != Status::ok) CHECK(all_zero(features.values));
+  std::vector<ss::SurfaceNormal> normals(3);
+  CHECK(ss::estimate_normals(cloud.view(), search, radius, ss::Viewpoint{}, normals, 2) == expected);
+  CHECK(normals.size() == (expected == Status::ok ? cloud.size() : 0));
 }
 
 }  // namespace
