@@ -26,6 +26,7 @@
 #include "batch/estimate_normals.hpp"
 #include "batch/extract.hpp"
 #include "batch/describe_cloud.hpp"
+#include "batch/diagnose.hpp"
 #include "batch/copy_point_cloud2.hpp"
 #include "batch/to_pcl.hpp"
 #include "store/features_file.hpp"
