@@ -16,6 +16,7 @@
 
 #include "shortshot/cloud/cloud.hpp"
 #include "shortshot/status.hpp"
+#include "tools/demo/diagnose.hpp"
 #include "tools/demo/hints.hpp"
 #include "tools/demo/options.hpp"
 #include "tools/demo/run.hpp"
@@ -131,7 +132,7 @@ void write_result(const RgbdCloud& cloud, const DemoOptions& options, const Demo
               result.size);
 }
 
-/// 0: described; 1: --check found a difference; 2: bad input, said on stderr.
+/// 0: described; 1: --check found a difference, or --diagnose something wrong; 2: bad input, said on stderr.
 int demonstrate(const std::string& file, const DemoOptions& options) {
   const bool generated = file.empty();
   try {
@@ -146,6 +147,7 @@ int demonstrate(const std::string& file, const DemoOptions& options) {
     std::printf("%s\n", generated ? "generated tabletop scene" : file.c_str());
     print_cloud(cloud, read_ms, dropped);
     std::fflush(stdout);  // before what stderr may say
+    if (options.diagnose) return print_diagnosis(cloud, options) ? 0 : 1;
     const DemoResult result = run_demo(cloud, options);
     print_result(cloud, options, result);
     if (!options.out.empty()) write_result(cloud, options, result);

@@ -19,6 +19,7 @@ struct DemoOptions {
   bool towards_camera = false;
   bool check = false;
   bool drop_zeros = false;  // points of (0, 0, 0) are no measurements
+  bool diagnose = false;  // in place of describing
 };
 
 /// Parses the command line. Returns true if there is something to do; otherwise `exit_code` is 0 (help was asked for)
