@@ -8621,7 +8621,8 @@ template <class Message>
   for (const auto& field : message.fields) {
     if (!(field.name == name)) continue;
     MessageField found{true, message_number(field.offset), message_number(field.datatype), 1};
-    if constexpr (HasElementCount<std::decay_t<decltype(field)>>::value) found.count = field.count == 0 ? 1 : message_number(field.count);
+    if constexpr (HasElementCount<std::decay_t<decltype(field)>>::value)
+      found.count = field.count == 0 ? 1 : message_number(field.count);
     return found;
   }
   return {};

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "tools/demo/run.hpp"
+#include "tools/demo/slow_stage.hpp"
 #include "tools/io/view_of_cloud.hpp"
 
 namespace shortshot_bench {
@@ -263,6 +264,7 @@ float frame_agreement(const CloudView& cloud, float radius, float leaf, const sh
 }
 
 bool print_diagnosis(const RgbdCloud& cloud, const DemoOptions& options) {
+  const SlowStage stage("looking at " + std::to_string(cloud.size()) + " points");
   const CloudView view = view_of_cloud(cloud);
   shortshot::Support support = options.radius;
   if (options.towards_camera) support.viewpoint = camera_of_cloud(cloud);

@@ -20,6 +20,7 @@
 #include "tools/demo/hints.hpp"
 #include "tools/demo/options.hpp"
 #include "tools/demo/run.hpp"
+#include "tools/demo/slow_stage.hpp"
 #include "tools/io/input_error.hpp"
 #include "tools/io/read_cloud.hpp"
 #include "tools/io/repeated_points.hpp"
@@ -132,6 +133,11 @@ void write_result(const RgbdCloud& cloud, const DemoOptions& options, const Demo
               result.size);
 }
 
+RgbdCloud read(const std::string& file) {
+  const SlowStage stage("reading");
+  return file.empty() ? make_tabletop() : read_cloud(file);
+}
+
 /// 0: described; 1: --check found a difference, or --diagnose something wrong; 2: bad input, said on stderr.
 int demonstrate(const std::string& file, const DemoOptions& options) {
   const bool generated = file.empty();
@@ -141,7 +147,7 @@ int demonstrate(const std::string& file, const DemoOptions& options) {
       throw std::runtime_error("--out would overwrite the cloud itself");
     }
     const Stopwatch reading;
-    RgbdCloud cloud = generated ? make_tabletop() : read_cloud(file);
+    RgbdCloud cloud = read(file);
     const double read_ms = reading.elapsed_ms();
     const std::size_t dropped = options.drop_zeros ? drop_zeros(cloud) : 0;
     std::printf("%s\n", generated ? "generated tabletop scene" : file.c_str());

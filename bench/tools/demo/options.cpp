@@ -34,7 +34,9 @@ bool parse_options(int argc, const char* const* argv, DemoOptions& options, int&
   app.add_option("--out", options.out, "write the descriptors to this .npy or .pcd file (one cloud only)");
   app.add_flag("--towards-camera", options.towards_camera, "turn the frames' z axes towards the camera");
   app.add_flag("--drop-zeros", options.drop_zeros, "leave out points of (0, 0, 0)");
-  app.add_flag("--check", options.check, "compare all searches, and 1, 2 and 3 threads: exit 1 if a bit differs");
+  app.add_flag(
+      "--check", options.check,
+      "compare all searches (large clouds: a sample of brute force), and 1, 2 and 3 threads: exit 1 if a bit differs");
   app.add_flag(
       "--diagnose", options.diagnose,
       "describe nothing: say whether points, unit and radius can work, and what to do; exit 1 if something is wrong");

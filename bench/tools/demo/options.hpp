@@ -1,6 +1,7 @@
 // What the demo is asked to do.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,8 @@ struct DemoOptions {
   bool towards_camera = false;
   bool check = false;
   bool drop_zeros = false;  // points of (0, 0, 0) are no measurements
-  bool diagnose = false;  // in place of describing
+  std::size_t brute_share = 1;  // brute force looks at one neighborhood in so many, a grid at the others
+  bool diagnose = false;        // in place of describing
 };
 
 /// Parses the command line. Returns true if there is something to do; otherwise `exit_code` is 0 (help was asked for)

@@ -7,6 +7,8 @@
 
 #include "shortshot/search/nanoflann.hpp"
 #include "shortshot/shortshot.hpp"
+#include "tools/demo/sampled_brute.hpp"
+#include "tools/demo/slow_stage.hpp"
 #include "tools/io/view_of_cloud.hpp"
 
 namespace shortshot_bench {
@@ -18,15 +20,18 @@ void require(Status status, const std::string& hint = {}) {
   if (status != Status::ok) throw std::runtime_error(std::string(shortshot::message(status)) + hint);
 }
 
-/// Builds the search of that name over the cloud, which serves this radius best, and calls work(search).
+/// Builds the search that was chosen over the cloud, which serves this radius best, and calls work(search).
 template <class Work>
-void with_search(const shortshot::CloudView& view, const std::string& name, float radius, const Work& work) {
+void with_search(const shortshot::CloudView& view, const DemoOptions& options, float radius, const Work& work) {
+  const std::string& name = options.search;
   if (name == "nanoflann") {
     work(shortshot::NanoflannSearch(view));
   } else if (name == "organized") {
     shortshot::OrganizedSearch search;
     require(search.build(view), " (--search grid works for any cloud)");
     work(search);
+  } else if (name == "brute" && options.brute_share > 1) {
+    work(SampledBruteSearch(view, radius, options.brute_share));
   } else if (name == "brute") {
     work(shortshot::BruteSearch{view});
   } else {
@@ -39,8 +44,9 @@ void with_search(const shortshot::CloudView& view, const std::string& name, floa
 void estimate_normals(const RgbdCloud& cloud, const DemoOptions& options, DemoResult& result) {
   const shortshot::CloudView view = view_of_cloud(cloud);
   const float radius = normal_radius(options);
+  const SlowStage stage("normals of " + std::to_string(cloud.size()) + " points");
   const Stopwatch stopwatch;
-  with_search(view, options.search, radius, [&](const auto& search) {
+  with_search(view, options, radius, [&](const auto& search) {
     require(shortshot::estimate_normals(view, search, radius, camera_of_cloud(cloud), result.normals, options.threads));
   });
   result.normals_ms = stopwatch.elapsed_ms();
@@ -109,8 +115,9 @@ DemoResult describe(const RgbdCloud& cloud, const DemoOptions& options) {
   if (options.towards_camera || D::wants_viewpoint) support.viewpoint = camera_of_cloud(cloud);
   shortshot::Features<D> features;
   const Stopwatch indexing;
-  with_search(view, options.search, options.radius, [&](const auto& search) {
+  with_search(view, options, options.radius, [&](const auto& search) {
     result.index_ms = indexing.elapsed_ms();
+    const SlowStage stage("describing " + std::to_string(result.keypoints.size()) + " key points");
     const Stopwatch describing;
     require(shortshot::extract<D>(view, search, result.keypoints, support, features, options.threads),
             way_out<D>(cloud));
@@ -130,6 +137,14 @@ bool same_bits(const std::vector<Value>& a, const std::vector<Value>& b) {
 bool same_bits(const DemoResult& a, const DemoResult& b) {
   return a.neighbors == b.neighbors && a.status == b.status && same_bits(a.normals, b.normals) &&
          same_bits(a.values, b.values);
+}
+
+/// Neighborhoods that a run looks at: of key points, and of all points where there are normals.
+std::size_t queries_of(const RgbdCloud& cloud, const DemoOptions& options) {
+  std::vector<std::uint32_t> keypoints;
+  require(shortshot::sample_uniform(view_of_cloud(cloud), options.leaf, keypoints));
+  const bool needs_normals = options.descriptor.find("shot") != std::string::npos;
+  return keypoints.size() + (needs_normals ? cloud.size() : 0);
 }
 
 }  // namespace
@@ -154,6 +169,11 @@ DemoResult run_demo(const RgbdCloud& cloud, const DemoOptions& options) {
 bool check_searches(const RgbdCloud& cloud, const DemoOptions& options) {
   DemoOptions variant = options;
   variant.search = "brute";
+  variant.brute_share = brute_share(cloud.size(), queries_of(cloud, options));
+  if (variant.brute_share > 1) {
+    std::printf("  check               brute force is asked for one neighborhood in %zu: the cloud is large\n",
+                variant.brute_share);
+  }
   const DemoResult reference = run_demo(cloud, variant);
   bool all_same = true;
   const auto compare = [&](const char* search, unsigned threads) {
