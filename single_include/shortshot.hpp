@@ -9506,6 +9506,15 @@ class GrowingWorkspace {
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
+inline constexpr std::size_t place_slots = 256;
+
+/// Which of them a place has; -0 is 0.
+[[nodiscard]] inline std::size_t slot_of_place(const Point& p, std::uint32_t seed = 0) noexcept {
+  std::uint32_t hash = seed;
+  for (const float v : {p.x, p.y, p.z}) hash = (hash ^ math::bits_of(v + 0.0f)) * 2654435769u;
+  return hash >> 24;
+}
+
 /// The normals of the last few crowded places. Many drivers write (0, 0, 0) for "no measurement": as many points in one
 /// place, each of which has all the others as neighbors. One per thread and call; of two places that meet in an entry
 /// the later one stays.
@@ -9519,13 +9528,13 @@ class KnownNormals {
 
   /// Null if it is not known.
   [[nodiscard]] const SurfaceNormal* find(const Point& p, Way way) const noexcept {
-    const Entry& entry = entries_[slot_of(p, way)];
+    const Entry& entry = entries_[slot_of_place(p, static_cast<std::uint32_t>(way))];
     const bool is_it = entry.way == way && entry.at.x == p.x && entry.at.y == p.y && entry.at.z == p.z;
     return is_it ? &entry.normal : nullptr;
   }
 
   void keep(const Point& p, Way way, std::uint32_t neighbors, const SurfaceNormal& normal) noexcept {
-    if (neighbors >= crowd) entries_[slot_of(p, way)] = {p, normal, way};
+    if (neighbors >= crowd) entries_[slot_of_place(p, static_cast<std::uint32_t>(way))] = {p, normal, way};
   }
 
  private:
@@ -9535,15 +9544,7 @@ class KnownNormals {
     Way way;
   };
 
-  static constexpr std::size_t slots = 256;
-
-  [[nodiscard]] static std::size_t slot_of(const Point& p, Way way) noexcept {
-    auto hash = static_cast<std::uint32_t>(way);
-    for (const float v : {p.x, p.y, p.z}) hash = (hash ^ math::bits_of(v + 0.0f)) * 2654435769u;  // -0 is 0
-    return hash >> 24;
-  }
-
-  std::array<Entry, slots> entries_{};
+  std::array<Entry, place_slots> entries_{};
 };
 
 }  // namespace SHORTSHOT_CODE
@@ -9962,6 +9963,55 @@ void clear_rows(Features<D>& out, std::size_t count, Status status) {
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_BATCH_FEATURES_HPP
 
+// shortshot/batch/known_rows.hpp: rows of key points that lie on top of each other, to be computed once. Hosted only.
+#ifndef SHORTSHOT_BATCH_KNOWN_ROWS_HPP
+#define SHORTSHOT_BATCH_KNOWN_ROWS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+[[nodiscard]] inline bool are_same(const KeyPoint& a, const KeyPoint& b) noexcept {
+  return a.position.x == b.position.x && a.position.y == b.position.y && a.position.z == b.position.z &&
+         a.intensity == b.intensity && a.color.r == b.color.r && a.color.g == b.color.g && a.color.b == b.color.b &&
+         a.has_color == b.has_color && a.has_intensity == b.has_intensity;
+}
+
+/// The rows of the last few crowded key points of one thread in one call; see KnownNormals.
+class KnownRows {
+ public:
+  /// An earlier row of the same key point, or `row` if none is known.
+  template <class D>
+  [[nodiscard]] std::size_t find(const Features<D>& features, std::size_t row) const noexcept {
+    const KeyPoint& key = features.keypoints[row];
+    const std::size_t known = rows_[slot_of_place(key.position)];
+    return known != 0 && are_same(features.keypoints[known - 1], key) ? known - 1 : row;
+  }
+
+  template <class D>
+  void keep(const Features<D>& features, std::size_t row) noexcept {
+    if (features.neighbors[row] < KnownNormals::crowd) return;
+    rows_[slot_of_place(features.keypoints[row].position)] = row + 1;
+  }
+
+ private:
+  std::array<std::size_t, place_slots> rows_{};  // 1 more than the number of a row; 0: none
+};
+
+/// All of a row but its key point.
+template <class D>
+void copy_row(Features<D>& features, std::size_t from, std::size_t to) noexcept {
+  float* const values = features.values.data();
+  std::memcpy(values + to * std::size_t{D::size}, values + from * std::size_t{D::size}, D::size_bytes);
+  features.status[to] = features.status[from];
+  features.frames[to] = features.frames[from];
+  features.frame_confidence[to] = features.frame_confidence[from];
+  features.neighbors[to] = features.neighbors[from];
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_KNOWN_ROWS_HPP
+
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
@@ -10035,7 +10085,7 @@ class Extractor {
                                                               out.frames[row], values, out.frame_confidence[row]);
     };
     const detail::SafeFrom<std::vector<Key>, D> keys(keypoints, out);
-    return extract_all(cloud, search, keys.get(), support, out, threads, finish, own...);
+    return extract_all<true>(cloud, search, keys.get(), support, out, threads, finish, own...);
   }
 
   /// The same in frames that the caller knows, one for each key point: bad_rows if there are not as many; bad_frame for
@@ -10054,12 +10104,13 @@ class Extractor {
       out.frames[row] = kept.get()[row];
       return describe<D>(n, sources, out.frames[row], radius, values);
     };
-    return extract_all(cloud, search, keys.get(), radius, out, threads, finish, own...);
+    return extract_all<false>(cloud, search, keys.get(), radius, out, threads, finish, own...);
   }
 
  private:
-  /// finish(neighborhood, sources, row, values) makes row `row` of a key point's neighborhood.
-  template <class Search, class Key, class Threads, class Finish, class... Own>
+  /// finish(neighborhood, sources, row, values) makes row `row` of a key point's neighborhood. `SameRows`: the same key
+  /// point has the same row.
+  template <bool SameRows, class Search, class Key, class Threads, class Finish, class... Own>
   [[nodiscard]] Status extract_all(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
                                    const Support& support, Features<D>& out, Threads& threads, const Finish& finish,
                                    const Own&... own) {
@@ -10073,6 +10124,7 @@ class Extractor {
       workspaces_.resize(team);
       leveled_for_ = 0;
     }
+    if (SameRows) known_rows_.assign(team, {});
     convert_colors(cloud, executor, team);
     const auto extract_rows = [&](std::size_t thread, std::size_t begin, std::size_t end) {
       for (std::size_t row = begin; row < end; ++row) {
@@ -10082,9 +10134,14 @@ class Extractor {
           status = Status::bad_keypoint;
           continue;
         }
+        const std::size_t same = SameRows ? known_rows_[thread].find(out, row) : row;
+        if (same != row) {
+          detail::copy_row(out, same, row);
+          continue;
+        }
         status = extract_row(cloud, search, support, workspaces_[thread], out, row, finish, own...);
-        if (status == Status::ok) continue;
-        detail::clear_row(out, row);
+        if (status != Status::ok) detail::clear_row(out, row);
+        if (SameRows) known_rows_[thread].keep(out, row);
       }
     };
     detail::for_blocks(executor, team, count, detail::keypoint_block, extract_rows);
@@ -10159,6 +10216,7 @@ class Extractor {
   LabTable<typename D::LabRule> to_lab_;
   std::vector<Color> lab_;                            // the cloud's colors
   std::vector<detail::GrowingWorkspace> workspaces_;  // one per thread
+  std::vector<detail::KnownRows> known_rows_;         // one per thread, of one call
   std::size_t leveled_for_ = 0;                       // neighbors that each of them has had room made for
 };
 
@@ -10200,6 +10258,9 @@ inline namespace SHORTSHOT_CODE {
 /// missing_normals, missing_intensities, what the search's build() returned, other_cloud (neighbors do not lie where
 /// the cloud has them: the search is over another one, or its memory was written to since) or coarse_coordinates (those
 /// of all key points; else of the row alone). For allocation and exceptions see Extractor.
+///
+/// Key points on top of each other in a crowded place are described once for each thread, but not in frames of the
+/// caller's.
 template <class D, class Search, class Key, class Threads = unsigned, class... Own>
 [[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
                              const Support& support, Features<D>& out, Threads&& threads = 1u, const Own&... own) {

@@ -46,6 +46,9 @@ inline namespace SHORTSHOT_CODE {
 /// missing_normals, missing_intensities, what the search's build() returned, other_cloud (neighbors do not lie where
 /// the cloud has them: the search is over another one, or its memory was written to since) or coarse_coordinates (those
 /// of all key points; else of the row alone). For allocation and exceptions see Extractor.
+///
+/// Key points on top of each other in a crowded place are described once for each thread, but not in frames of the
+/// caller's.
 template <class D, class Search, class Key, class Threads = unsigned, class... Own>
 [[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
                              const Support& support, Features<D>& out, Threads&& threads = 1u, const Own&... own) {

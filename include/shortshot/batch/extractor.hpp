@@ -22,6 +22,7 @@
 #include "executor.hpp"
 #include "features.hpp"
 #include "growing_workspace.hpp"
+#include "known_rows.hpp"
 #include "plausible.hpp"
 
 namespace shortshot::detail {
@@ -97,7 +98,7 @@ class Extractor {
                                                               out.frames[row], values, out.frame_confidence[row]);
     };
     const detail::SafeFrom<std::vector<Key>, D> keys(keypoints, out);
-    return extract_all(cloud, search, keys.get(), support, out, threads, finish, own...);
+    return extract_all<true>(cloud, search, keys.get(), support, out, threads, finish, own...);
   }
 
   /// The same in frames that the caller knows, one for each key point: bad_rows if there are not as many; bad_frame for
@@ -116,12 +117,13 @@ class Extractor {
       out.frames[row] = kept.get()[row];
       return describe<D>(n, sources, out.frames[row], radius, values);
     };
-    return extract_all(cloud, search, keys.get(), radius, out, threads, finish, own...);
+    return extract_all<false>(cloud, search, keys.get(), radius, out, threads, finish, own...);
   }
 
  private:
-  /// finish(neighborhood, sources, row, values) makes row `row` of a key point's neighborhood.
-  template <class Search, class Key, class Threads, class Finish, class... Own>
+  /// finish(neighborhood, sources, row, values) makes row `row` of a key point's neighborhood. `SameRows`: the same key
+  /// point has the same row.
+  template <bool SameRows, class Search, class Key, class Threads, class Finish, class... Own>
   [[nodiscard]] Status extract_all(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
                                    const Support& support, Features<D>& out, Threads& threads, const Finish& finish,
                                    const Own&... own) {
@@ -135,6 +137,7 @@ class Extractor {
       workspaces_.resize(team);
       leveled_for_ = 0;
     }
+    if (SameRows) known_rows_.assign(team, {});
     convert_colors(cloud, executor, team);
     const auto extract_rows = [&](std::size_t thread, std::size_t begin, std::size_t end) {
       for (std::size_t row = begin; row < end; ++row) {
@@ -144,9 +147,14 @@ class Extractor {
           status = Status::bad_keypoint;
           continue;
         }
+        const std::size_t same = SameRows ? known_rows_[thread].find(out, row) : row;
+        if (same != row) {
+          detail::copy_row(out, same, row);
+          continue;
+        }
         status = extract_row(cloud, search, support, workspaces_[thread], out, row, finish, own...);
-        if (status == Status::ok) continue;
-        detail::clear_row(out, row);
+        if (status != Status::ok) detail::clear_row(out, row);
+        if (SameRows) known_rows_[thread].keep(out, row);
       }
     };
     detail::for_blocks(executor, team, count, detail::keypoint_block, extract_rows);
@@ -221,6 +229,7 @@ class Extractor {
   LabTable<typename D::LabRule> to_lab_;
   std::vector<Color> lab_;                            // the cloud's colors
   std::vector<detail::GrowingWorkspace> workspaces_;  // one per thread
+  std::vector<detail::KnownRows> known_rows_;         // one per thread, of one call
   std::size_t leveled_for_ = 0;                       // neighbors that each of them has had room made for
 };
 

@@ -88,6 +88,41 @@ TEST_CASE("normals of several crowded places in turn, and of one on a surface") 
   }
 }
 
+TEST_CASE("rows of key points in one place are computed once for each place and thread") {
+  TestCloud cloud = curved_surface(2, 3000);
+  const ss::Point crowded = cloud.at(900);
+  for (std::size_t k = 0; k < copies; ++k) cloud.add(k % 2 == 0 ? ss::Point{0.0f, 0.0f, 0.0f} : crowded);
+  cloud.rgb.assign(cloud.rgb.size(), 90);
+  for (std::size_t i = 0; i < 3000; ++i) cloud.rgb[3 * i] = static_cast<std::uint8_t>(i);
+  std::vector<std::uint32_t> keypoints{5, 900, 6};
+  for (std::uint32_t k = 3000; k < 3000 + copies; ++k) keypoints.push_back(k);
+  const ss::GridSearch grid(cloud.view(), radius);
+  ss::Features<ss::Scsh336> zero, crowd, other_color;
+  const auto alone = [&](std::uint32_t index, ss::Features<ss::Scsh336>& out) {
+    REQUIRE(ss::extract(cloud.view(), grid, std::vector<std::uint32_t>{index}, radius, out) == Status::ok);
+  };
+  alone(3000, zero);
+  alone(3001, crowd);
+  alone(900, other_color);
+  REQUIRE(zero.status[0] != Status::ok);
+  REQUIRE(crowd.status[0] == Status::ok);
+  REQUIRE(std::memcmp(crowd[0], other_color[0], ss::Scsh336::size_bytes) != 0);
+  for (const unsigned threads : {1u, 3u}) {
+    const CountingSearch<ss::GridSearch> search(grid);
+    ss::Features<ss::Scsh336> features;
+    REQUIRE(ss::extract(cloud.view(), search, keypoints, radius, features, threads) == Status::ok);
+    CHECK(search.neighbors < 30 * threads * copies);  // copies^2 would be 400 million
+    for (std::size_t row = 1; row < features.size(); ++row) {
+      if (row == 2) continue;
+      const ss::Features<ss::Scsh336>& expected = row == 1 ? other_color : row % 2 == 1 ? zero : crowd;
+      REQUIRE(features.status[row] == expected.status[0]);
+      REQUIRE(features.neighbors[row] == expected.neighbors[0]);
+      REQUIRE(std::memcmp(features[row], expected[0], ss::Scsh336::size_bytes) == 0);
+      REQUIRE(std::memcmp(&features.frames[row], &expected.frames[0], sizeof(ss::Frame)) == 0);
+    }
+  }
+}
+
 TEST_CASE("two outliers at the ends of float's range leave the grid its cells") {
   const TestCloud cloud = curved_surface(3, 4000);
   for (const float far : {1e9f, 2e38f, 3e38f, 3.4e38f}) {
