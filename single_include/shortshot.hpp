@@ -10435,11 +10435,13 @@ inline void look_at_all(const CloudView& cloud, Diagnosis& out) noexcept {
       const SurfaceNormal n = normal(cloud, i);
       const float squared = squared_distance({n.x, n.y, n.z}, {});
       const bool is_there = math::is_finite(squared) && squared > 0.0f;
-      with_normal += is_there ? 1 : 0;
-      of_other_length += is_there && !(squared > 0.98f && squared < 1.02f) ? 1 : 0;
+      if (is_there) ++with_normal;
+      if (is_there && !(squared > 0.98f && squared < 1.02f)) ++of_other_length;
     }
-    at_origin += is_at_origin(p) ? 1 : 0;
-    if (is_at_origin(p)) return;
+    if (is_at_origin(p)) {
+      ++at_origin;
+      return;
+    }
     out.low = is_first ? p : Point{std::min(out.low.x, p.x), std::min(out.low.y, p.y), std::min(out.low.z, p.z)};
     out.high = is_first ? p : Point{std::max(out.high.x, p.x), std::max(out.high.y, p.y), std::max(out.high.z, p.z)};
     is_first = false;
@@ -10507,13 +10509,13 @@ class Examination {
   void look_at(const Point& p, Neighborhood& n) {
     const std::uint32_t within = count_within(n, support_.radius);
     counts_.push_back(static_cast<float>(within));
-    few_ += within <= 5 ? 1 : 0;
+    if (within <= 5) ++few_;
     Frame frame;
     FrameConfidence sure;
     if (estimate_frame(n, support_.frame_radius, frame, sure, support_.viewpoint) == Status::ok) {
       confidences_.push_back(confidence(sure));
     }
-    doubles_ += std::count(n.d2, n.d2 + n.size, 0.0f) > 1 ? 1 : 0;
+    if (std::count(n.d2, n.d2 + n.size, 0.0f) > 1) ++doubles_;
     look_for_nearest(p, n);
   }
 
@@ -10578,7 +10580,7 @@ template <class Search, class Key = std::uint32_t>
   for (std::size_t row = 0; row < keypoints.size(); ++row) {
     KeyPoint key;
     const bool exists = detail::keypoint_at(cloud, keypoints, row, key);
-    out.off_surface += exists && examination.has_point_within(key.position, near) ? 0 : 1;
+    if (!exists || !examination.has_point_within(key.position, near)) ++out.off_surface;
   }
   return out;
 }
