@@ -78,11 +78,11 @@ inline namespace SHORTSHOT_CODE {
 /// Describes many key points of one cloud after the other, and owns the scratch memory that this takes. `Color` is how
 /// a cloud's colors are kept meanwhile: Lab, 12 bytes a point, or PackedLab, 4 bytes a point and less exact.
 ///
-/// Allocates those and 16 KB for colors, about 30 bytes for each neighbor of the largest neighborhood and each thread,
-/// and the rows; with the same extractor and features again, nothing, until a cloud needs more than those before it.
-/// Starting threads, however, costs small allocations of the C++ runtime's in every call; an executor has none. May
-/// throw what std::vector, std::thread and the executor throw (on a thread started here that ends the program); rows
-/// that were not described by then have the status out_of_memory.
+/// Allocates those and 16 KB for colors, for each thread 2 KB and about 30 bytes for each neighbor of the largest
+/// neighborhood, and the rows; with the same extractor and features again, nothing, until a cloud needs more than those
+/// before it. Starting threads, however, costs small allocations of the C++ runtime's in every call; an executor has
+/// none. May throw what std::vector, std::thread and the executor throw (on a thread started here that ends the
+/// program); rows that were not described by then have the status out_of_memory.
 template <class D, class Color = Lab>
 class Extractor {
   static_assert(std::is_same<Color, Lab>::value || std::is_same<Color, PackedLab>::value,
