@@ -12,6 +12,7 @@ build_test(include_order.can_fail "${include_order}" --control "${PROJECT_SOURCE
 build_test(readme "${CMAKE_COMMAND}" "-DDOCUMENT=${PROJECT_SOURCE_DIR}/README.md"
   -DEXAMPLES=quick_start,parents,firmware,recognition "-DOUTPUT_DIR=${there}/readme" -P "${here}/extract_examples.cmake")
 build_test(run_script "${here}/test_run.sh" "${PROJECT_SOURCE_DIR}/run" "${there}/run_script")
+build_test(fuzz_script "${here}/test_fuzz.sh" "${PROJECT_SOURCE_DIR}/tests/fuzz/fuzz.sh" "${there}/fuzz_script")
 
 if(TARGET results_writer AND EXISTS "${PROJECT_SOURCE_DIR}/bench/results/peers.json")
   build_test(results_are_fresh results_writer "${PROJECT_SOURCE_DIR}" --check)

@@ -8,6 +8,7 @@
 #include <new>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 namespace shortshot_bench {
 namespace {
@@ -71,7 +72,9 @@ std::string_view line_end_of(std::string_view bytes) {
 
 }  // namespace
 
-ByteSource::ByteSource(const std::string& path) : path_(path), bytes_(read_whole_file(path)) {
+ByteSource::ByteSource(const std::string& path) : ByteSource(path, read_whole_file(path)) {}
+
+ByteSource::ByteSource(std::string name, std::string bytes) : path_(std::move(name)), bytes_(std::move(bytes)) {
   if (bytes_.compare(0, 3, "\xef\xbb\xbf") == 0) begin_bytes_ = 3;
   line_end_ = line_end_of(bytes_);
   rewind();

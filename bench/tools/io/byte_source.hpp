@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "input_error.hpp"
 
@@ -15,7 +16,8 @@ namespace shortshot_bench {
 class ByteSource {
  public:
   explicit ByteSource(const std::string& path);  // throws InputError
-  ByteSource(const ByteSource&) = delete;        // a copy would leave the views behind
+  ByteSource(std::string name, std::string bytes);
+  ByteSource(const ByteSource&) = delete;  // a copy would leave the views behind
   ByteSource& operator=(const ByteSource&) = delete;
 
   const std::string& path() const { return path_; }

@@ -1,6 +1,7 @@
 #include "read_cloud.hpp"
 
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "byte_source.hpp"
@@ -35,10 +36,7 @@ bool is_pcd(ByteSource& source) {
   return found;
 }
 
-}  // namespace
-
-RgbdCloud read_cloud(const std::string& path) {
-  ByteSource source(path);
+RgbdCloud read_source(ByteSource& source) {
   if (is_utf16(source.rest())) {
     throw source.byte_error("expected ASCII or UTF-8, found the byte order mark of UTF-16: save the text anew");
   }
@@ -48,6 +46,18 @@ RgbdCloud read_cloud(const std::string& path) {
   std::string_view line;
   if (!source.next_line(line)) throw source.line_error(expected + "an empty file");
   throw source.line_error(expected + quoted(line));
+}
+
+}  // namespace
+
+RgbdCloud read_cloud(const std::string& path) {
+  ByteSource source(path);
+  return read_source(source);
+}
+
+RgbdCloud read_cloud(const std::string& name, std::string bytes) {
+  ByteSource source(name, std::move(bytes));
+  return read_source(source);
 }
 
 }  // namespace shortshot_bench

@@ -15,4 +15,7 @@ namespace shortshot_bench {
 // an error.
 RgbdCloud read_cloud(const std::string& path);
 
+// The same of a file's bytes, which are in memory already; messages call them `name`.
+RgbdCloud read_cloud(const std::string& name, std::string bytes);
+
 }  // namespace shortshot_bench

@@ -64,6 +64,14 @@ TEST_CASE("cloud files: PCD of every DATA and color type") {
   }
 }
 
+TEST_CASE("cloud files: bytes in memory are read as a file is") {
+  for (const std::string& bytes : {sample_pcd("binary", 'F'), sample_ply("ascii")}) {
+    check_sample(shortshot_bench::read_cloud("memory", bytes));
+    CHECK_THROWS_WITH_AS(shortshot_bench::read_cloud("memory", bytes.substr(0, bytes.size() / 2)),
+                         doctest::Contains("memory:"), InputError);
+  }
+}
+
 TEST_CASE("cloud files: PLY of every format") {
   for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
     CAPTURE(format);
