@@ -7505,11 +7505,16 @@ class OrganizedSearch {
       low = pixel < low ? pixel : low;
       high = pixel > high ? pixel : high;
     }
-    const auto clamped = [pixels](float pixel) -> std::size_t {
-      if (!(pixel > 0.0f)) return 0;
-      return pixel < static_cast<float>(pixels) ? static_cast<std::size_t>(pixel) : pixels;
-    };
-    return {clamped(low - p.error - 1.0f), clamped(high + p.error + 2.0f)};
+    // NaN, where there is no slope and a corner lies beyond float's range, leaves nobody out.
+    const float first = low - p.error - 1.0f;
+    const float last = high + p.error + 2.0f;
+    const auto end = static_cast<float>(pixels);
+    return {!(first > 0.0f) ? 0
+            : first < end   ? static_cast<std::size_t>(first)
+                            : pixels,
+            !(last < end) ? pixels
+            : last > 0.0f ? static_cast<std::size_t>(last)
+                          : 0};
   }
 
   /// Calls f(column, row, x / z, y / z) for each valid point.
@@ -14388,6 +14393,7 @@ inline namespace SHORTSHOT_CODE {
 #ifndef SHORTSHOT_SEARCH_NANOFLANN_HPP
 #define SHORTSHOT_SEARCH_NANOFLANN_HPP
 
+#include <limits>
 #include <nanoflann.hpp>
 #include <vector>
 
@@ -14431,24 +14437,31 @@ class NanoflannSink {
   using IndexType = std::uint32_t;
 
   NanoflannSink(const NanoflannCloud& points, const Point& center, Radius radius, Neighbors& out)
-      : points_(points), center_(center), radius_(radius), out_(out) {}
+      : points_(points), center_(center), radius_(radius), worst_(worst_of(radius)), out_(out) {}
 
   bool addPoint(float, std::uint32_t i) {
     const std::uint32_t index = points_.valid[i];
     offer(out_, point(points_.cloud, index), index, center_, radius_.squared);
     return true;
   }
-  /// A little more than the radius, so that the tree's own rounding loses nobody on the rim.
-  [[nodiscard]] float worstDist() const { return radius_.squared * 1.00001f; }
+  [[nodiscard]] float worstDist() const { return worst_; }
   [[nodiscard]] std::size_t size() const { return out_.size; }
   [[nodiscard]] bool empty() const { return out_.size == 0; }
   [[nodiscard]] bool full() const { return true; }
   void sort() {}
 
  private:
+  /// A little more than the radius, so that the tree's own rounding loses nobody on the rim. The tree adds up to three
+  /// such numbers: where they may leave float's range, it is to look everywhere.
+  [[nodiscard]] static float worst_of(Radius radius) {
+    return radius.squared < 0.25f * std::numeric_limits<float>::max() ? radius.squared * 1.00001f
+                                                                      : std::numeric_limits<float>::infinity();
+  }
+
   const NanoflannCloud& points_;
   Point center_;
   Radius radius_;
+  float worst_;
   Neighbors& out_;
 };
 

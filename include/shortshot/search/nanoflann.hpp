@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <nanoflann.hpp>
 #include <vector>
 
@@ -56,24 +57,31 @@ class NanoflannSink {
   using IndexType = std::uint32_t;
 
   NanoflannSink(const NanoflannCloud& points, const Point& center, Radius radius, Neighbors& out)
-      : points_(points), center_(center), radius_(radius), out_(out) {}
+      : points_(points), center_(center), radius_(radius), worst_(worst_of(radius)), out_(out) {}
 
   bool addPoint(float, std::uint32_t i) {
     const std::uint32_t index = points_.valid[i];
     offer(out_, point(points_.cloud, index), index, center_, radius_.squared);
     return true;
   }
-  /// A little more than the radius, so that the tree's own rounding loses nobody on the rim.
-  [[nodiscard]] float worstDist() const { return radius_.squared * 1.00001f; }
+  [[nodiscard]] float worstDist() const { return worst_; }
   [[nodiscard]] std::size_t size() const { return out_.size; }
   [[nodiscard]] bool empty() const { return out_.size == 0; }
   [[nodiscard]] bool full() const { return true; }
   void sort() {}
 
  private:
+  /// A little more than the radius, so that the tree's own rounding loses nobody on the rim. The tree adds up to three
+  /// such numbers: where they may leave float's range, it is to look everywhere.
+  [[nodiscard]] static float worst_of(Radius radius) {
+    return radius.squared < 0.25f * std::numeric_limits<float>::max() ? radius.squared * 1.00001f
+                                                                      : std::numeric_limits<float>::infinity();
+  }
+
   const NanoflannCloud& points_;
   Point center_;
   Radius radius_;
+  float worst_;
   Neighbors& out_;
 };
 

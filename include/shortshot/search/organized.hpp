@@ -90,11 +90,16 @@ class OrganizedSearch {
       low = pixel < low ? pixel : low;
       high = pixel > high ? pixel : high;
     }
-    const auto clamped = [pixels](float pixel) -> std::size_t {
-      if (!(pixel > 0.0f)) return 0;
-      return pixel < static_cast<float>(pixels) ? static_cast<std::size_t>(pixel) : pixels;
-    };
-    return {clamped(low - p.error - 1.0f), clamped(high + p.error + 2.0f)};
+    // NaN, where there is no slope and a corner lies beyond float's range, leaves nobody out.
+    const float first = low - p.error - 1.0f;
+    const float last = high + p.error + 2.0f;
+    const auto end = static_cast<float>(pixels);
+    return {!(first > 0.0f) ? 0
+            : first < end   ? static_cast<std::size_t>(first)
+                            : pixels,
+            !(last < end) ? pixels
+            : last > 0.0f ? static_cast<std::size_t>(last)
+                          : 0};
   }
 
   /// Calls f(column, row, x / z, y / z) for each valid point.

@@ -94,6 +94,20 @@ TEST_CASE("search: ten kilometers of points with a radius of a meter") {
   check_all_searches(cloud, 1.0f);
 }
 
+TEST_CASE("search: a radius whose square is near the end of float's range") {
+  Random random(4);
+  TestCloud cloud;
+  add_points(cloud, random, 300, -2e19f, 2e19f);
+  for (const float radius : {0.9e19f, 1.2e19f, 1.7e19f, 1.84e19f}) {
+    CAPTURE(radius);
+    const std::vector<ss::Point> places = places_to_ask(cloud, 7, radius);
+    require_brute(ss::GridSearch(cloud.view(), radius), cloud, places, radius);
+    for (const std::size_t leaf : {1u, 10u}) {
+      require_brute(ss::NanoflannSearch(cloud.view(), leaf), cloud, places, radius);
+    }
+  }
+}
+
 TEST_CASE("search: points that are not finite are never neighbors") {
   TestCloud cloud = blob(8, 600);
   for (std::size_t i = 0; i < cloud.xyz.size(); i += 5) cloud.xyz[i] = i % 2 == 0 ? not_a_number : -infinity;
