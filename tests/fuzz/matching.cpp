@@ -125,6 +125,29 @@ void check_floats(fuzz::Bytes& from, const Sizes& sizes, const std::vector<Statu
   check(queries, database, sizes.neighbors, ratio);
 }
 
+/// Halves are matched as the floats that they stand for.
+void check_halves(fuzz::Bytes& from, const Sizes& sizes, const std::vector<Status>& statuses) {
+  std::vector<std::uint16_t> halves((sizes.queries + sizes.database) * sizes.values);
+  std::vector<float> floats;
+  for (std::uint16_t& half : halves) {
+    half = from.number<std::uint16_t>();
+    floats.push_back(ss::detail::float_of_half(half));
+  }
+  const std::size_t first = sizes.queries * sizes.values;
+  const Status* const status = statuses.data();
+  std::vector<ss::Match> of_halves, of_floats;
+  const Status matched =
+      ss::nearest(ss::HalfRows{halves.data(), sizes.queries, sizes.values, status},
+                  ss::HalfRows{halves.data() + first, sizes.database, sizes.values, status + sizes.queries},
+                  sizes.neighbors, of_halves);
+  require(matched == Status::ok, "nearest ok");
+  const Status expected =
+      ss::nearest(ss::DescriptorRows{floats.data(), sizes.queries, sizes.values, status},
+                  ss::DescriptorRows{floats.data() + first, sizes.database, sizes.values, status + sizes.queries},
+                  sizes.neighbors, of_floats);
+  require(expected == Status::ok && fuzz::same_bits(of_halves, of_floats), "halves as floats");
+}
+
 template <class Rows>
 void check_bytes(fuzz::Bytes& from, const Sizes& sizes, const std::vector<Status>& statuses, float ratio, Rows like) {
   std::vector<std::uint8_t> bytes((sizes.queries + sizes.database) * sizes.values);
@@ -144,7 +167,7 @@ void check_bytes(fuzz::Bytes& from, const Sizes& sizes, const std::vector<Status
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Bytes from(data, size);
-  const std::size_t format = from.below(4);
+  const std::size_t format = from.below(5);
   const Sizes sizes{from.below(12), from.below(24), 1 + from.below(36), 1 + from.below(5)};
   const float ratio = 0.01f * static_cast<float>(1 + from.below(100));
   const std::vector<Status> statuses = made_statuses(from, sizes.queries + sizes.database);
@@ -152,6 +175,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     case 0: check_floats(from, sizes, statuses, ratio); break;
     case 1: check_bytes(from, sizes, statuses, ratio, ss::ByteRows{nullptr, 0, 0, 1.0f / 256.0f, nullptr}); break;
     case 2: check_bytes(from, sizes, statuses, ratio, ss::NibbleRows{nullptr, 0, 0, 1.0f / 16.0f, nullptr}); break;
+    case 3: check_halves(from, sizes, statuses); break;
     default: check_bytes(from, sizes, statuses, ratio, ss::BitRows{});
   }
   return 0;

@@ -1,6 +1,7 @@
 // Files of recognizers and of features, damaged: a status, or what is saved again with the same bytes.
 #include <algorithm>
 #include <shortshot/descriptor/compact.hpp>
+#include <shortshot/recognition/recognize_stored.hpp>
 #include <shortshot/recognition/recognizer_model.hpp>
 #include <shortshot/store/features_file.hpp>
 #include <shortshot/store/stored_features.hpp>
@@ -17,7 +18,7 @@ using D = ss::ShapeColor32;
 using Stored = ss::StoredFeatures<ss::ByteDescriptor<D>>;
 using Halves = ss::StoredFeatures<ss::HalfDescriptor<D>>;
 
-constexpr const char* layout = "two values";
+constexpr const char* plain_layout = "two values";
 
 ss::Features<D> made_features() {
   ss::Features<D> features;
@@ -46,8 +47,19 @@ File file_of_recognizer() {
   const ss::FeatureRows rows{{values, 2, 2, nullptr}, places.keypoints.data(), frames.data()};
   ss::Recognizer recognizer;
   File file;
-  require(ss::train(recognizer, rows, layout, {}, "mug", "red") == Status::ok, "trained");
-  require(ss::train(recognizer, rows, layout, {}, "can", "blue") == Status::ok, "trained");
+  require(ss::train(recognizer, rows, plain_layout, {}, "mug", "red") == Status::ok, "trained");
+  require(ss::train(recognizer, rows, plain_layout, {}, "can", "blue") == Status::ok, "trained");
+  require(ss::save(recognizer, file) == Status::ok, "saved");
+  return file;
+}
+
+/// Of stored descriptors, which are compared as they are stored.
+File file_of_packed_recognizer() {
+  Stored stored;
+  ss::Recognizer recognizer;
+  File file;
+  require(ss::store(made_features(), stored) == Status::ok, "stored");
+  require(ss::train(recognizer, stored, {}, "mug", "red") == Status::ok, "trained");
   require(ss::save(recognizer, file) == Status::ok, "saved");
   return file;
 }
@@ -61,7 +73,7 @@ File file_of_features() {
 /// One of ours with some changes, or the fuzzer's bytes as they are.
 File made_file(fuzz::Bytes& from, std::size_t kind, bool is_raw) {
   static const File whole[] = {file_of_recognizer(), file_of_features(), file_of_storage<Stored>(),
-                               file_of_storage<Halves>()};
+                               file_of_storage<Halves>(), file_of_packed_recognizer()};
   if (is_raw) return File(from.data(), from.data() + from.left());
   File file = whole[kind];
   while (from.left() > 0 && !file.empty()) {
@@ -91,7 +103,15 @@ void require_saved_again(Status status, const File& saved, const File& loaded) {
   require(saved == loaded, "with the same bytes");
 }
 
-void load_recognizer(const File& file) {
+void check_hypotheses(const ss::Recognizer& recognizer, Status status, const std::vector<ss::Hypothesis>& objects) {
+  require(status == Status::ok || objects.empty(), "no hypothesis without ok");
+  for (const ss::Hypothesis& object : objects) {
+    require(object.object_class < recognizer.class_count() && object.instance < recognizer.instance_count(), "a name");
+    require(ss::is_finite(object.center) && object.score >= 0.0f, "hypotheses are finite");
+  }
+}
+
+void load_recognizer(const File& file, const std::string& layout, bool is_packed) {
   ss::Recognizer recognizer;
   if (ss::load(file.data(), file.size(), layout, recognizer) != Status::ok) {
     require(recognizer.codeword_count() == 0 && recognizer.layout().empty(), "what is refused changes nothing");
@@ -104,17 +124,19 @@ void load_recognizer(const File& file) {
     require(recognizer.class_of(i) < recognizer.class_count(), "each instance has a class");
   }
   if (recognizer.row_size() > 64 || recognizer.codeword_count() > 64) return;
+  if (is_packed) {
+    Stored stored;
+    std::vector<ss::Hypothesis> objects;
+    require(ss::store(made_features(), stored) == Status::ok, "stored");
+    check_hypotheses(recognizer, ss::recognize(recognizer, stored, objects), objects);
+    return;
+  }
   const std::vector<float> values(recognizer.row_size(), 0.25f);
   const ss::Frame frame{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
   const ss::KeyPoint origin{ss::Point{}};
   std::vector<ss::Hypothesis> objects;
   const ss::FeatureRows row{{values.data(), 1, values.size(), nullptr}, &origin, &frame};
-  const Status status = ss::recognize(recognizer, row, layout, objects);
-  require(status == Status::ok || objects.empty(), "no hypothesis without ok");
-  for (const ss::Hypothesis& object : objects) {
-    require(object.object_class < recognizer.class_count() && object.instance < recognizer.instance_count(), "a name");
-    require(ss::is_finite(object.center) && object.score >= 0.0f, "hypotheses are finite");
-  }
+  check_hypotheses(recognizer, ss::recognize(recognizer, row, layout, objects), objects);
 }
 
 template <class Some>
@@ -134,14 +156,15 @@ void load_features(const File& file) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Bytes from(data, size);
   const std::uint8_t how = from.byte();
-  const std::size_t kind = how % 4;
-  File file = made_file(from, kind, how % 16 / 4 == 0);
+  const std::size_t kind = how % 5;
+  File file = made_file(from, kind, how % 25 / 5 == 0);
   if (how < 192) seal(file);
   switch (kind) {
-    case 0: load_recognizer(file); break;
+    case 0: load_recognizer(file, plain_layout, false); break;
     case 1: load_features<ss::Features<D>>(file); break;
     case 2: load_features<Stored>(file); break;
-    default: load_features<Halves>(file);
+    case 3: load_features<Halves>(file); break;
+    default: load_recognizer(file, ss::storage_layout<ss::ByteDescriptor<D>>(), true);
   }
   return 0;
 }
