@@ -62,7 +62,10 @@ void fuzz::ROWS(const MadeCloud& made, std::size_t key, std::vector<std::uint8_t
 
   append_row<ss::Scsh336>(rows, cloud, key, made.radius);
   append_row<ss::ShapeColor95>(rows, cloud, key, made.radius);
-  if (normals.empty()) return;
-  cloud = ss::with_normals(cloud, normals.data());
+  if (!normals.empty()) append_row<ss::Shot352>(rows, ss::with_normals(cloud, normals.data()), key, made.radius);
+  // Whatever coordinates are: no normals, and strange intensities.
+  cloud.normals = cloud.points;
   append_row<ss::Shot352>(rows, cloud, key, made.radius);
+  cloud = ss::with_intensities(cloud, made.xyz.data(), 3 * sizeof(float));
+  append_row<ss::IntensityShape336>(rows, cloud, key, made.radius);
 }
