@@ -9718,7 +9718,8 @@ class NormalEstimator {
     }
     wide = Radius((radius_.value + simd::sqrt(farthest_d2)) * 1.00001f);  // more than all roundings
     const float widest = (count > smallest_part ? 1.75f : 3.0f) * radius_.value;
-    return wide.value < widest && wide.value < largest_shared && validate(wide) == Status::ok && gather(center, wide, candidates) == Status::ok;
+    return wide.value < widest && wide.value < largest_shared && validate(wide) == Status::ok &&
+           gather(center, wide, candidates) == Status::ok;
   }
 
   /// Normals of these points; zeros for those that need to be looked at alone.
@@ -14393,7 +14394,6 @@ inline namespace SHORTSHOT_CODE {
 #ifndef SHORTSHOT_SEARCH_NANOFLANN_HPP
 #define SHORTSHOT_SEARCH_NANOFLANN_HPP
 
-#include <limits>
 #include <nanoflann.hpp>
 #include <vector>
 

@@ -19,7 +19,7 @@ struct DemoOptions {
   std::string out;  // empty: nothing is written
   bool towards_camera = false;
   bool check = false;
-  bool drop_zeros = false;  // points of (0, 0, 0) are no measurements
+  bool drop_zeros = false;      // points of (0, 0, 0) are no measurements
   std::size_t brute_share = 1;  // brute force looks at one neighborhood in so many, a grid at the others
   bool diagnose = false;        // in place of describing
 };

@@ -120,7 +120,8 @@ class NormalEstimator {
     }
     wide = Radius((radius_.value + simd::sqrt(farthest_d2)) * 1.00001f);  // more than all roundings
     const float widest = (count > smallest_part ? 1.75f : 3.0f) * radius_.value;
-    return wide.value < widest && wide.value < largest_shared && validate(wide) == Status::ok && gather(center, wide, candidates) == Status::ok;
+    return wide.value < widest && wide.value < largest_shared && validate(wide) == Status::ok &&
+           gather(center, wide, candidates) == Status::ok;
   }
 
   /// Normals of these points; zeros for those that need to be looked at alone.
