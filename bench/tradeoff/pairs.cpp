@@ -101,14 +101,18 @@ std::vector<Item> match_pairs(const datasets::PairSet& set, const std::vector<st
       if (floats.count(cloud) == 0) floats[cloud] = views[cloud].describe(candidate.configuration);
     }
   }
+  std::vector<std::map<std::size_t, Described>> codes;  // of each storage
   for (const Storage& storage : candidate.storages) {
-    std::map<std::size_t, Described> codes;
-    for (const auto& [cloud, described] : floats) codes[cloud] = coded(described, storage);
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      const std::size_t source = set.sources[pairs[k]];
-      const std::size_t target = set.targets[pairs[k]];
-      const Truth truth(set.truths[pairs[k]], views[source], views[target], look.correct_distance);
-      items[k].counts[entry_name(candidate, storage)] = count(codes[source], codes[target], truth, look);
+    auto& of_clouds = codes.emplace_back();
+    for (const auto& [cloud, described] : floats) of_clouds[cloud] = coded(described, storage);
+  }
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const std::size_t source = set.sources[pairs[k]];
+    const std::size_t target = set.targets[pairs[k]];
+    const Truth truth(set.truths[pairs[k]], views[source], views[target], look.correct_distance);
+    for (std::size_t s = 0; s < codes.size(); ++s) {
+      items[k].counts[entry_name(candidate, candidate.storages[s])] =
+          count(codes[s][source], codes[s][target], truth, look);
     }
   }
   return items;
