@@ -189,7 +189,10 @@ campaign::Series series(const std::string& name, const Map& map, double Cost::*t
     }
   }
   std::sort(places.begin(), places.end());
+  double best = 0.0;
   for (const auto& [x, y] : places) {
+    if (line && !(y > best)) continue;  // on the front for what this plot does not show
+    best = std::max(best, y);
     s.xs.push_back(x);
     s.ys.push_back(y);
     if (line) continue;
@@ -215,7 +218,7 @@ void draw(const Map& map, double Cost::*time, const std::string& label, const st
       series(
           "compact", map, time, [](const Entry& e) { return e.kind == Kind::compact; }, 3, false),
       series(
-          "front", map, time, [](const Entry& e) { return e.on_front; }, 1, time == nullptr),
+          "front", map, time, [](const Entry& e) { return e.on_front; }, 1, true),
   };
   campaign::write_svg(plot, path);
 }

@@ -57,9 +57,13 @@ inline std::string firmware() {
 class Project {
  public:
   Project() {
+    write("README.md",
+          "before\n<!-- generated: headline -->\nold\n<!-- end -->\nafter\n<!-- generated: firmware -->\n<!-- end -->\n"
+          "<!-- generated: tradeoff -->\n<!-- end -->\n");
+    write("bench/TRADEOFF.md", "# Page\n<!-- generated: tradeoff -->\n<!-- end -->\n");
     write(
-        "README.md",
-        "before\n<!-- generated: headline -->\nold\n<!-- end -->\nafter\n<!-- generated: firmware -->\n<!-- end -->\n");
+        "bench/results/tradeoff.json",
+        R"({"headline": {"title": "H", "markdown": "| small | 32 |\n"}, "map": {"title": "M", "markdown": "| all |\n"}})");
     write("bench/firmware/README.md", "# Page\n<!-- generated: firmware -->\n<!-- end -->\n");
     write("bench/results/firmware.json", firmware());
     std::string report = "# Report\n";

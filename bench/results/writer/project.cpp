@@ -51,6 +51,12 @@ std::vector<Document> generate(const std::string& root) {
   generate_block(readme, "firmware",
                  made_of(firmware_path, [&] { return firmware_headline(firmware_path, firmware); }));
 
+  const std::string tradeoff_path = results + "tradeoff.json";
+  const nlohmann::ordered_json tradeoff = scaling::read_json(tradeoff_path);
+  generate_block(readme, "tradeoff", made_of(tradeoff_path, [&] { return tradeoff_headline(tradeoff); }));
+  Document map = read_document(root + "/bench/TRADEOFF.md");
+  generate_block(map, "tradeoff", made_of(tradeoff_path, [&] { return tradeoff_tables(tradeoff, "results"); }));
+
   Document page = read_document(root + "/bench/firmware/README.md");
   generate_block(page, "firmware", made_of(firmware_path, [&] { return firmware_tables(firmware); }));
 
@@ -63,7 +69,7 @@ std::vector<Document> generate(const std::string& root) {
 
   Document goals = read_document(root + "/bench/GOALS.md");
   generate_block(goals, "goals", goals_table(scaling::read_rows(results + "goals.json")));
-  return {readme, report, page, goals};
+  return {readme, report, page, goals, map};
 }
 
 }  // namespace shortshot_bench::results

@@ -31,6 +31,11 @@ std::string instructions_table(const std::string& path, const nlohmann::ordered_
 std::string firmware_headline(const std::string& path, const nlohmann::ordered_json& json);
 std::string firmware_tables(const nlohmann::ordered_json& json);
 
+/// `json` is what ./run tradeoff --record wrote: the README's table, and the page's tables with the plots, which lie in
+/// the folder `plots`.
+std::string tradeoff_headline(const nlohmann::ordered_json& json);
+std::string tradeoff_tables(const nlohmann::ordered_json& json, const std::string& plots);
+
 /// For each curve a table and its plot, which lies in the folder `plots`.
 std::string scaling_tables(const std::vector<CurvePoint>& points, const std::string& plots);
 

@@ -132,11 +132,23 @@ TEST_CASE("firmware: the README's rows, and the page's tables") {
   CHECK(has(refusal_of(file, R"({"figures": [], "hashes": [], "budgets": []})"), "no figures of Ssh96 on m7 -Os"));
 }
 
+TEST_CASE("trade-offs: the README's rows, and the page's tables and plots") {
+  const Project project;
+  const std::vector<Document> documents = generate(project.root());
+  CHECK(has(documents.at(0).generated, "| small | 32 |\n"));
+  const std::string& page = documents.at(4).generated;
+  CHECK(has(page, "![score_by_bytes](results/tradeoff_score_by_bytes.svg)\n"));
+  CHECK(has(page, "**M**\n\n| all |\n"));
+  CHECK_FALSE(has(page, "small"));
+  CHECK(has(refusal_of("bench/results/tradeoff.json", "{}"), "'headline' not found"));
+}
+
 TEST_CASE("a missing or malformed file is named, and what is wrong with it") {
   for (const char* file :
        {"README.md", "bench/RESULTS.md", "bench/GOALS.md", "bench/results/machine.json", "bench/results/peers.json",
         "bench/results/goals.json", "bench/results/micro.json", "bench/speed/instructions/expected.json",
-        "bench/results/scaling.json", "bench/results/firmware.json", "bench/firmware/README.md"}) {
+        "bench/results/scaling.json", "bench/results/firmware.json", "bench/firmware/README.md",
+        "bench/results/tradeoff.json", "bench/TRADEOFF.md"}) {
     CAPTURE(file);
     const Project project;
     std::filesystem::remove(project.path(file));
