@@ -40,10 +40,15 @@ template <class Of>
   // All of them, whatever the first say: the compiler replaces several divisions at once.
   bool right = has_bits(product(above_one, above_one) - number(1.0f + 8192.0f * half_ulp), 0.0f);  // fused
   right &= has_bits((number(0.25f) + large) - large, 0.0f);                                        // regrouped
-  right &= quotients(5.0f) & quotients(7.0f) & quotients(11.0f) & quotients(13.0f);  // multiplied by the reciprocal
-  right &= has_bits(number(5.0f) / of(3.0f), 5.0f / 3.0f) & has_bits(number(7.0f) / of(3.0f), 7.0f / 3.0f);
-  right &= has_bits(sqrt(number(3.0f)), 1.73205081f) & has_bits(sqrt(number(5.0f)), 2.23606798f);  // approximated
-  right &= has_bits(one + number(half_ulp / 2.0f), 1.0f);                                          // rounded up
+  right &= quotients(5.0f);  // multiplied by the reciprocal, these and the next ones
+  right &= quotients(7.0f);
+  right &= quotients(11.0f);
+  right &= quotients(13.0f);
+  right &= has_bits(number(5.0f) / of(3.0f), 5.0f / 3.0f);
+  right &= has_bits(number(7.0f) / of(3.0f), 7.0f / 3.0f);
+  right &= has_bits(sqrt(number(3.0f)), 1.73205081f);  // approximated
+  right &= has_bits(sqrt(number(5.0f)), 2.23606798f);
+  right &= has_bits(one + number(half_ulp / 2.0f), 1.0f);                 // rounded up
   right &= has_bits(one - number(half_ulp / 4.0f), 1.0f);                 // rounded down, or towards zero
   right &= has_bits(number(-0.0f) + of(0.0f), 0.0f);                      // signs of zeros ignored
   right &= has_bits(product(number(least), of(0.5f)), least / 2.0f);      // small results flushed to zero

@@ -80,7 +80,8 @@ PairSet object_scene_pairs(const std::string& directory, const std::string& tabl
                      directory + "/scenes_xyz/" + scene + ".pcd",
                      read_rigid_motion(directory + "/groundtruth/" + truth)});
   }
-  return make_pair_set("object-scene", false, std::move(pairs), read_cloud, itself);
+  return make_pair_set(
+      "object-scene", false, std::move(pairs), [](const std::string& file) { return read_cloud(file); }, itself);
 }
 
 PairSet view_pairs(const std::string& directory, const std::string& table) {
