@@ -229,7 +229,7 @@ TEST_CASE("PointCloud2 of drivers: numbers that no float has are NaN, others are
     REQUIRE(ss::copy_point_cloud2(m, copy, view) == Status::ok);
     return ss::point(view, 0).x;
   };
-  constexpr double most = std::numeric_limits<float>::max();
+  constexpr double most = static_cast<double>(std::numeric_limits<float>::max());
   CHECK(read(0.1) == 0.1f);
   CHECK(read(16777217.0) == 16777216.0f);  // between two: the even one
   CHECK(read(16777219.0) == 16777220.0f);
