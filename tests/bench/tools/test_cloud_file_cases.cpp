@@ -116,7 +116,7 @@ TEST_CASE("cloud cases: line ends of LF CR, a byte order mark, a blank behind th
   for (const char* name : {"bom.ply", "data_uppercase.pcd"}) {
     const RgbdCloud text = cloud_of(name);
     REQUIRE(text.size() == cloud.size());
-    CHECK(text.xyz[4799] == doctest::Approx(cloud.xyz[4799]));
+    CHECK(static_cast<double>(text.xyz[4799]) == doctest::Approx(static_cast<double>(cloud.xyz[4799])));
   }
   CHECK(first_color(cloud_of("trailing_space_first.ply")) == Rgb{0, 0, 90});
   const RgbdCloud old = cloud_of("nan_msvc_old.pcd");
