@@ -23,9 +23,10 @@ void assign_roles(PointTable& table, const std::string& path, std::uint64_t line
 }
 
 void set_text_columns(PointTable& table, const std::vector<Channel*>& channels) {
-  std::size_t index = 0;
+  const double* next = table.own_values.data();  // null without points
   for (Channel* const channel : channels) {
-    channel->values.first = reinterpret_cast<const char*>(table.own_values.data() + index++);
+    channel->values.first = reinterpret_cast<const char*>(next);
+    if (next != nullptr) ++next;
     channel->values.stride_bytes = channels.size() * sizeof(double);
     channel->values.type = {ScalarKind::floating, sizeof(double)};
     channel->values.order = host_order();
