@@ -38,7 +38,7 @@ RigidMotion scaled(RigidMotion motion, double meters) {
 
 /// `files_of(cloud)`: what must be there.
 template <class FilesOf>
-PairSet make_pair_set(const std::string& name, bool has_color, std::vector<PairEntry> pairs, ReadView read,
+PairSet make_pair_set(const std::string& name, bool has_color, const std::vector<PairEntry>& pairs, ReadView read,
                       const FilesOf& files_of) {
   PairSet set;
   set.name = name;
@@ -64,11 +64,7 @@ PairSet make_pair_set(const std::string& name, bool has_color, std::vector<PairE
   }
   require_files(files, "a cloud's file");
   set.clouds = clouds.size();
-  set.load_cloud = [clouds = std::move(clouds), read](std::size_t i) { return read(clouds.at(i)); };
-  set.load = [pairs = std::move(pairs), read = std::move(read)](std::size_t i) {
-    const PairEntry& pair = pairs.at(i);
-    return ViewPair{pair.name, read(pair.source), read(pair.target), pair.truth, rotation_degrees(pair.truth)};
-  };
+  set.load_cloud = [clouds = std::move(clouds), read = std::move(read)](std::size_t i) { return read(clouds.at(i)); };
   return set;
 }
 
@@ -81,7 +77,7 @@ PairSet object_scene_pairs(const std::string& directory, const std::string& tabl
                      read_rigid_motion(directory + "/groundtruth/" + truth)});
   }
   return make_pair_set(
-      "object-scene", false, std::move(pairs), [](const std::string& file) { return read_cloud(file); }, itself);
+      "object-scene", false, pairs, [](const std::string& file) { return read_cloud(file); }, itself);
 }
 
 PairSet view_pairs(const std::string& directory, const std::string& table) {
@@ -92,7 +88,7 @@ PairSet view_pairs(const std::string& directory, const std::string& table) {
     pairs.push_back({stem(source) + " " + stem(target), stem(source), views + source, views + target,
                      read_rigid_motion(directory + "/view_pairs_gt/" + truth)});
   }
-  return make_pair_set("views", true, std::move(pairs), read_colored_cloud, itself);
+  return make_pair_set("views", true, pairs, read_colored_cloud, itself);
 }
 
 PairSet frame_pairs(const std::string& directory, const std::string& table, double max_depth) {
@@ -104,7 +100,7 @@ PairSet frame_pairs(const std::string& directory, const std::string& table, doub
     pairs.push_back({a + " " + b, a, directory + "/" + a, directory + "/" + b, motion_between(pose(a), pose(b))});
   }
   return make_pair_set(
-      "frames", true, std::move(pairs), [=](const std::string& frame) { return read_frame(frame, camera, max_depth); },
+      "frames", true, pairs, [=](const std::string& frame) { return read_frame(frame, camera, max_depth); },
       files_of_frame);
 }
 
@@ -126,13 +122,6 @@ std::vector<PairSet> open_pair_sets(const std::string& directory, double max_dep
 PairSet scaled(PairSet set, double meters) {
   if (meters == 1.0 || set.name == "frames") return set;
   for (RigidMotion& truth : set.truths) truth = scaled(truth, meters);
-  set.load = [load = set.load, meters](std::size_t i) {
-    ViewPair pair = load(i);
-    pair.source = scaled(std::move(pair.source), meters);
-    pair.target = scaled(std::move(pair.target), meters);
-    pair.truth = scaled(pair.truth, meters);
-    return pair;
-  };
   set.load_cloud = [load = set.load_cloud, meters](std::size_t i) { return scaled(load(i), meters); };
   return set;
 }

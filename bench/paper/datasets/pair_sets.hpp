@@ -27,15 +27,19 @@ struct PairSet {
   std::vector<std::string> groups;      // pairs of one group share a cloud: no independent samples for a bootstrap
   std::vector<double> rotation_deg;     // by the true motion
   std::vector<RigidMotion> truths;      // target = truth * source
-  std::vector<std::size_t> sources;     // the number of the source, for load_cloud()
+  std::vector<std::size_t> sources;     // the number of the source among the clouds
   std::vector<std::size_t> targets;
 
-  /// Reads pair i from its files, each time anew; may be called from many threads at once. Throws InputError for files
-  /// that are missing or broken, std::out_of_range for i >= size().
-  std::function<ViewPair(std::size_t)> load;
-  /// One cloud, likewise: for those who look at it once and at all of its pairs.
-  std::function<RgbdCloud(std::size_t)> load_cloud;
   std::size_t clouds = 0;
+
+  /// Reads a cloud from its files, each time anew; may be called from many threads at once. Throws InputError for files
+  /// that are broken, std::out_of_range for a cloud that does not exist.
+  std::function<RgbdCloud(std::size_t)> load_cloud;
+
+  /// Pair i with both of its clouds, likewise; std::out_of_range for i >= size().
+  ViewPair load(std::size_t i) const {
+    return {pair_names.at(i), load_cloud(sources[i]), load_cloud(targets[i]), truths[i], rotation_deg[i]};
+  }
 
   std::size_t size() const { return pair_names.size(); }
 };
