@@ -1,7 +1,8 @@
-// What to try next, where the numbers say that something is probably not meant so.
+// What to try next, where what comes of a cloud says that something is probably not meant so.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "tools/demo/options.hpp"
 #include "tools/demo/run.hpp"
@@ -9,8 +10,7 @@
 
 namespace shortshot_bench {
 
-/// Where most key points have too few neighbors, or all points are within one radius: the cloud's extent, and that its
-/// unit may be another than that of the radius. Else empty.
-std::string hint_at_units(const RgbdCloud& cloud, const DemoOptions& options, const DemoResult& result);
+/// What diagnose() has to say where most key points have no descriptor, or one of them has all points as neighbors.
+std::vector<std::string> hints(const RgbdCloud& cloud, const DemoOptions& options, const DemoResult& result);
 
 }  // namespace shortshot_bench

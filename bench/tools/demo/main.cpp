@@ -44,12 +44,6 @@ std::uint64_t checksum(const std::vector<float>& values) {
   return hash;
 }
 
-std::size_t valid_points(const shortshot::CloudView& view) {
-  std::size_t valid = 0;
-  for (std::size_t i = 0; i < view.size; ++i) valid += shortshot::is_finite(shortshot::point(view, i)) ? 1 : 0;
-  return valid;
-}
-
 std::string channels_of(const RgbdCloud& cloud) {
   std::string channels = cloud.has_colors() ? "with color" : "";
   if (cloud.has_intensities()) channels += channels.empty() ? "with intensity" : " and intensity";
@@ -62,7 +56,7 @@ void print_note(const std::string& note) { std::printf("  note                %s
 /// Before it is described: a refusal of the whole cloud is the better understood.
 void print_cloud(const RgbdCloud& cloud, double read_ms, std::size_t dropped) {
   std::printf("  points              %zu (%zu x %zu), %zu valid, %s, in %.1f ms\n", cloud.size(), cloud.width,
-              cloud.height, valid_points(view_of_cloud(cloud)), channels_of(cloud).c_str(), read_ms);
+              cloud.height, valid_points_of(cloud), channels_of(cloud).c_str(), read_ms);
   for (const std::string& note : cloud.notes) print_note(note);
   if (dropped > 0) print_note(std::to_string(dropped) + " points of 0 0 0 left out");
 }
@@ -101,8 +95,7 @@ void print_result(const RgbdCloud& cloud, const DemoOptions& options, const Demo
     const auto rows = std::count(result.status.begin(), result.status.end(), status);
     if (rows > 0) std::printf("  status              %6ld  %s\n", static_cast<long>(rows), shortshot::message(status));
   }
-  const std::string hint = hint_at_units(cloud, options, result);
-  if (!hint.empty()) print_note(hint);
+  for (const std::string& hint : hints(cloud, options, result)) print_note(hint);
 }
 
 /// Rows are key points in ascending order of their index; those without a descriptor are zeros.

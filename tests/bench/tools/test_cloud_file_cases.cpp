@@ -98,15 +98,17 @@ TEST_CASE("cloud cases: zeros for what was not measured are named, and can be le
 TEST_CASE("cloud cases: millimeters") {
   DemoOptions options;
   const RgbdCloud cloud = cloud_of("millimeters.ply");
-  CHECK(hint_at_units(cloud, options, run_demo(cloud, options)) ==
-        "the cloud is 156 x 156 x 20 large, and most key points have too few neighbors within 0.04: raise --radius and "
-        "--leaf; if the cloud's unit is millimeters, to 40 and 20");
+  const auto hints_of = [&] { return hints(cloud, options, run_demo(cloud, options)); };
+  Strings hint = hints_of();
+  REQUIRE(hint.size() == 1);
+  CHECK(hint[0].find("most likely millimeters and the radius meters (--radius 40 --leaf 20") != std::string::npos);
   options.radius = 40;
   options.leaf = 20;
-  CHECK(hint_at_units(cloud, options, run_demo(cloud, options)).empty());
+  CHECK(hints_of().empty());
   options.radius = 1000;
-  CHECK(hint_at_units(cloud, options, run_demo(cloud, options)).find("all of it is within --radius") !=
-        std::string::npos);
+  hint = hints_of();
+  REQUIRE_FALSE(hint.empty());
+  CHECK(hint[0].find("all of the cloud, 1.6e+02 large, is within the radius") != std::string::npos);
 }
 
 TEST_CASE("cloud cases: line ends of LF CR, a byte order mark, a blank behind the first word, capitals, old NaNs") {

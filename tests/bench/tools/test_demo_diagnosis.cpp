@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "shortshot/shortshot.hpp"
+#include "tools/demo/advice.hpp"
 #include "tools/demo/diagnose.hpp"
 #include "tools/io/view_of_cloud.hpp"
 #include "tools/scene/tabletop.hpp"
@@ -31,10 +32,8 @@ RgbdCloud scaled(RgbdCloud cloud, float scale, float shift = 0.0f) {
 
 /// All advice, in lines.
 std::string advice_of(const RgbdCloud& cloud, const DemoOptions& options = {}) {
-  const shortshot::CloudView view = view_of_cloud(cloud);
-  const shortshot::GridSearch search(view, options.radius);
   std::string lines;
-  for (const std::string& line : advice_on(shortshot::diagnose(view, search, options.radius), view, options)) {
+  for (const std::string& line : advice_on(diagnosis_of(cloud, options), view_of_cloud(cloud), options)) {
     lines += line + "\n";
   }
   return lines;
