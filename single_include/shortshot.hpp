@@ -297,7 +297,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// A product (a float, or a register of them), rounded as IEEE 754 says. Where the CPU has a fused multiply-add, GCC
 /// and clang may use it for a product and the sum that it goes into, which gives other bits: every product that goes
-/// into a sum must pass through here.
+/// into a sum must pass through here, and every quotient: by a constant, it may become a product.
 template <class Float>
 [[nodiscard]] constexpr Float unfused(Float product) noexcept {
   return __builtin_is_constant_evaluated() ? product : detail::hidden(product);
@@ -357,7 +357,7 @@ template <class Function>
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm256_add_ps(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {_mm256_sub_ps(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {unfused(_mm256_mul_ps(a.v, b.v))}; }
-[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {_mm256_div_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {unfused(_mm256_div_ps(a.v, b.v))}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {_mm256_add_epi32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {_mm256_cmp_ps(a.v, b.v, _CMP_GT_OQ)}; }
@@ -561,7 +561,7 @@ template <class Function>
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {_mm_add_ps(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {_mm_sub_ps(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {unfused(_mm_mul_ps(a.v, b.v))}; }
-[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {_mm_div_ps(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {unfused(_mm_div_ps(a.v, b.v))}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {_mm_add_epi32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {_mm_cmplt_ps(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {_mm_cmpgt_ps(a.v, b.v)}; }
@@ -746,7 +746,7 @@ template <class Function>
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {vaddq_f32(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {vsubq_f32(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {unfused(vmulq_f32(a.v, b.v))}; }
-[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {vdivq_f32(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {unfused(vdivq_f32(a.v, b.v))}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {vaddq_s32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {vcltq_f32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {vcgtq_f32(a.v, b.v)}; }
@@ -944,7 +944,7 @@ template <class Function>
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {a.v + b.v}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {a.v - b.v}; }
 [[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {unfused(a.v * b.v)}; }
-[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {a.v / b.v}; }
+[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {unfused(a.v / b.v)}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {a.v + b.v}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {a.v < b.v}; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {a.v > b.v}; }
@@ -1204,31 +1204,26 @@ inline constexpr float least_normal = 1.17549435e-38f;
 /// The largest power of two not above a positive normal number.
 [[nodiscard]] inline float power_of_two_below(float value) noexcept { return float_of(bits_of(value) & 0x7F800000u); }
 
-/// What length() needs to know of vectors no longer than `longest`: 1.5 * 2^23 quanta, each 2^-10 of its power of two.
-[[nodiscard]] inline float length_splitter(float longest) noexcept {
-  return unfused(power_of_two_below(longest) * 12288.0f);
+/// The nearest multiple of a quantum, of a number not above R for a splitter of 12288 R: products of two such numbers,
+/// and sums of three products, are exact.
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 coarse(simd::F32 value, float splitter) noexcept {
+  return (value + simd::all(splitter)) - simd::all(splitter);
 }
 
-/// sqrt(x^2 + y^2 + z^2), correctly rounded but for one case in a thousand. Points of a regular grid lie exactly on
-/// the borders of shells, where one bit decides which neighboring shell gets a vote; the published code has double.
-/// Each argument is split in a multiple of a common quantum, whose squares add up exactly, and a small rest.
-[[nodiscard]] inline simd::F32 length(simd::F32 x, simd::F32 y, simd::F32 z, float splitter) noexcept {
+/// How much longer a vector is than `length`, which is about as long as it and given as the sum of a coarse() number
+/// and a small rest: to some bits more than a float of the length itself has. Squares of coarse parts cancel exactly.
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 length_beyond(simd::F32 x, simd::F32 y, simd::F32 z, simd::F32 coarse_length,
+                                                       simd::F32 rest, float splitter) noexcept {
   using simd::F32;
-  const F32 quantum = simd::all(splitter);
-  const auto coarse = [&](F32 v) { return (v + quantum) - quantum; };
   const F32 of[3] = {x, y, z};
-  F32 exact = simd::all(0.0f);
-  F32 rest = simd::all(0.0f);
+  F32 exact = simd::all(0.0f) - coarse_length * coarse_length;
+  F32 small = simd::all(0.0f) - rest * (coarse_length + coarse_length + rest);
   detail::each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
-    const F32 part = coarse(of[k]);
+    const F32 part = coarse(of[k], splitter);
     exact = exact + part * part;
-    rest = rest + (of[k] - part) * (of[k] + part);
+    small = small + (of[k] - part) * (of[k] + part);
   });
-
-  const F32 root = simd::sqrt(exact + rest);
-  const F32 coarse_root = coarse(root);
-  const F32 error = (exact - coarse_root * coarse_root) + (rest - (root - coarse_root) * (root + coarse_root));
-  return root + error / simd::max(root + root, simd::all(least_normal));
+  return (exact + small) / (coarse_length + coarse_length);
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -1904,30 +1899,98 @@ struct Axis {
 #ifndef SHORTSHOT_DESCRIPTOR_EXACT_SHELLS_HPP
 #define SHORTSHOT_DESCRIPTOR_EXACT_SHELLS_HPP
 
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
+namespace shortshot::extend {
+inline namespace SHORTSHOT_TYPES {
 
-/// Which of these distances (over the radius) are as close to the border or the middle of a shell as their rounding?
-/// All of both are multiples of 1 / `borders`.
-[[nodiscard]] SHORTSHOT_INLINE simd::Mask near_border(simd::F32 distance, float borders) noexcept {
-  const simd::F32 position = distance * simd::all(borders);
-  const simd::F32 nearest = simd::to_whole(position);
-  return simd::all(1e-6f * borders) > simd::abs(position - nearest);
+/// Where votes jump from shell to shell: on the borders and in the middles of shells, multiples of R / `Multiples`
+/// both. For each grid, that is every so many `Steps` of these multiples, borders and middles by turns. Without grids:
+/// a float's own rounding is as good as any.
+template <int Multiples, int... Steps>
+struct ShellBorders {
+  static constexpr float per_radius = static_cast<float>(Multiples);
+  static constexpr int grids = static_cast<int>(sizeof...(Steps));
+  static constexpr float steps[] = {static_cast<float>(Steps)..., 0.0f};  // 0: the end
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::extend
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
+
+/// The smallest common multiple, up to 2^20: as far as floats tell multiples of its inverse apart.
+template <class... Numbers>
+constexpr int common_multiple(Numbers... numbers) noexcept {
+  constexpr int most = 1 << 20;
+  int all = 1;
+  for (const int number : {numbers...}) {
+    int multiple = all;
+    while (multiple % number != 0 && multiple < most - all) multiple += all;
+    all = multiple % number == 0 ? multiple : most;
+  }
+  return all;
 }
 
-/// Distances over the radius. Points of a regular grid lie exactly on the borders of shells, where one bit decides
-/// which neighboring shell gets a vote: there, and only there, they are computed with more bits than a float has.
-[[nodiscard]] SHORTSHOT_INLINE simd::F32 exact_distance(simd::F32 d2, const PointLanes& local, Radius radius,
-                                                        float borders) noexcept {
-  const simd::F32 inverse = simd::all(1.0f / radius.value);
-  const simd::F32 distance = simd::sqrt(d2) * inverse;
-  const simd::Mask near = near_border(distance, borders);
+/// How many of `all` multiples of 1 / all lie between two of the `own` of a grid. One shell (2) alone has no border
+/// where votes jump: beyond all.
+constexpr int step_between(int all, int own) noexcept { return own > 2 ? all / own : 2 * all; }
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// How much longer a vector is than `multiple` >= 1 times R / per_radius, in these units.
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 units_beyond(const PointLanes& vector, simd::F32 multiple, Radius radius,
+                                                      float per_radius) noexcept {
+  using simd::all;
+  const float splitter = unfused(12288.0f * radius.value);
+  const simd::F32 r = all(radius.value);
+  const simd::F32 coarse_r = math::coarse(r, splitter);
+  const simd::F32 units = all(per_radius);
+  // multiple * R / per_radius in two parts
+  const simd::F32 large = math::coarse(multiple * r / units, splitter);
+  const simd::F32 rest = ((multiple * coarse_r - units * large) + multiple * (r - coarse_r)) / units;
+  return math::length_beyond(vector.x, vector.y, vector.z, large, rest, splitter) * units / r;
+}
+
+/// How far a place beyond a multiple of R / per_radius is from it as the published code sees it, which rounds a
+/// distance in shells to float once: 0 if that makes it the multiple itself. A border is told from what lies below it,
+/// a middle from what lies above it.
+template <class Borders>
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 rounded_beyond(simd::F32 multiple, simd::F32 beyond) noexcept {
+  using simd::all;
+  if constexpr (Borders::grids == 1) return (multiple + beyond) - multiple;  // it may as well know the other side
+  simd::F32 rounded = all(0.0f);
+  for (const float* each = Borders::steps; *each > 0.0f; ++each) {
+    const simd::F32 step = all(*each);
+    const simd::F32 halves = multiple / step;  // of shells
+    const simd::F32 off = (halves + beyond / step) - halves;
+    // Even numbers of halves are borders, odd ones middles: whole if the votes of this grid jump on that side.
+    const simd::F32 jumps = all(0.5f) * select(off > all(0.0f), halves + all(1.0f), halves);
+    const simd::Mask do_jump = all(1e-6f) > simd::abs(jumps - simd::to_whole(jumps));
+    rounded = select(do_jump, rounded + off * step, rounded);
+  }
+  return rounded;
+}
+
+/// Distances over the radius. Points of a regular grid lie exactly on the borders and in the middles of shells, where
+/// one bit decides which neighboring shell gets a vote: there, and only there, they fall on the side on which the
+/// published code has them.
+template <class Borders>
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 exact_distance(simd::F32 d2, const PointLanes& local, Radius radius) noexcept {
+  const simd::F32 distance = simd::sqrt(d2) * simd::all(1.0f / radius.value);
+  const simd::F32 position = distance * simd::all(Borders::per_radius);
+  const simd::F32 nearest = simd::to_whole(position);
+  const simd::F32 rounding = simd::all(1e-6f * Borders::per_radius);
+  const simd::Mask near = rounding > simd::abs(position - nearest);
   if (any(near)) {
-    const float splitter = math::length_splitter(radius.value);
-    const simd::F32 exact = math::length(local.x, local.y, local.z, splitter) * inverse;
+    const simd::F32 multiple = simd::max(nearest, simd::all(1.0f));  // nothing jumps at 0
+    const simd::F32 beyond = units_beyond(local, multiple, radius, Borders::per_radius);
+    const simd::F32 side = rounded_beyond<Borders>(multiple, beyond);
+    // Twice as far from the border as it is, which no rounding on the way from here to a cell undoes.
+    const simd::F32 exact = (multiple + simd::all(2.0f) * side) / simd::all(Borders::per_radius);
     // A frame that is not quite orthonormal must not move its neighbors from border to border.
-    const simd::Mask same = simd::all(2e-6f) > simd::abs(exact - distance);
-    return select(near & same, simd::min(exact, simd::all(1.0f)), distance);
+    const simd::Mask same = rounding + rounding > simd::abs(beyond);
+    return select(near & same, exact, distance);
   }
   return distance;
 }
@@ -1982,11 +2045,11 @@ struct PublishedCells {
 
   /// Coordinates 0, 1 and 2 of neighbors: distance over the radius, angle from +z over pi, and the angle from -x,
   /// counter-clockwise, in turns; all 0..1.
-  template <bool Exact>
+  template <class Borders>
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 distance(extend::simd::F32 d2,
-                                                                   const extend::PointLanes& local, Radius radius,
-                                                                   float borders) noexcept {
-    if constexpr (Exact) return detail::exact_distance(d2, local, radius, borders);
+                                                                   const extend::PointLanes& local,
+                                                                   Radius radius) noexcept {
+    if constexpr (Borders::grids > 0) return detail::exact_distance<Borders>(d2, local, radius);
     return extend::simd::sqrt(d2) * extend::simd::all(1.0f / radius.value);
   }
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 elevation(const extend::PointLanes& local,
@@ -2039,9 +2102,9 @@ struct ShotCells {
     return (d2 > extend::simd::all(1e-30f)) & (d2 < extend::simd::all(radius.squared));
   }
 
-  template <bool>
+  template <class>
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 distance(extend::simd::F32 d2, const extend::PointLanes&,
-                                                                   Radius radius, float) noexcept {
+                                                                   Radius radius) noexcept {
     return extend::simd::sqrt(d2) * extend::simd::all(1.0f / radius.value);
   }
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 elevation(const extend::PointLanes& local,
@@ -4318,14 +4381,6 @@ struct FirstOf {
   using type = First;
 };
 
-/// The smallest common multiple, up to 2^20: as far as floats tell multiples of its inverse apart.
-constexpr int common_multiple(int a, int b) noexcept {
-  constexpr int most = 1 << 20;
-  int multiple = a;
-  while (multiple % b != 0 && multiple < most - a) multiple += a;
-  return multiple % b == 0 ? multiple : most;
-}
-
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::detail
 
@@ -4381,13 +4436,13 @@ struct Descriptor {
     return bits;
   }();
 
-  /// All borders and middles of its shells are multiples of R / shell_borders; 1: none that need more than a float's
-  /// bits.
-  static constexpr int shell_borders = [] {
-    int borders = 1;
-    ((borders = detail::common_multiple(borders, Parts::Scale::borders(Parts::Grid::radial))), ...);
-    return Cells::exact_borders(borders);
-  }();
+  /// Where its votes jump from shell to shell, and a float's own rounding might decide on which side.
+  static constexpr int shell_multiples =
+      Cells::exact_borders(detail::common_multiple(Parts::Scale::borders(Parts::Grid::radial)...));
+  using ShellBorders = std::conditional_t<
+      shell_multiples == 1, extend::ShellBorders<1>,
+      extend::ShellBorders<shell_multiples,
+                           detail::step_between(shell_multiples, Parts::Scale::borders(Parts::Grid::radial))...>>;
 
   /// Do sums become values as they are?
   static constexpr bool is_plain = (std::is_same<typename Parts::Finish, PlainSums>::value && ...);
@@ -5167,14 +5222,13 @@ struct Located {
   simd::Mask described;
 };
 
-template <class Cells, bool Exact, int Values, class FrameAxes, class Signals>
+template <class Cells, class Borders, int Values, class FrameAxes, class Signals>
 [[nodiscard]] SHORTSHOT_INLINE Located<Values> locate_register(const NeighborLanes& v, const FrameAxes& frame,
-                                                               Radius radius, float borders,
-                                                               const Signals& signals) noexcept {
+                                                               Radius radius, const Signals& signals) noexcept {
   const PointLanes offset{v.dx, v.dy, v.dz};
   const PointLanes local{along(frame.x, offset), along(frame.y, offset), along(frame.z, offset)};
   Located<Values> located{};
-  located.distance = Cells::template distance<Exact>(v.d2, local, radius, borders);
+  located.distance = Cells::template distance<Borders>(v.d2, local, radius);
   const simd::F32 from_axis = simd::sqrt(local.x * local.x + local.y * local.y);
   located.elevation = Cells::elevation(local, from_axis, radius);
   located.azimuth = Cells::azimuth(local, from_axis);
@@ -5201,10 +5255,9 @@ SHORTSHOT_INLINE void append(Chunk& chunk, std::uint32_t size, simd::I32 index, 
 
 /// Neighbors into a chunk: from the cloud's coordinates to spherical ones in the frame. (Nothing here depends on the
 /// descriptor but through the arguments: many of them share this.)
-template <class Cells, bool Exact, class Neighbors, class Signals, class Chunk>
+template <class Cells, class Borders, class Neighbors, class Signals, class Chunk>
 [[gnu::noinline]] inline void locate(const Neighbors& all, const Stretches& stretches, const Frame& frame,
-                                     Radius radius, float borders, const Signals& signals_of_place,
-                                     Chunk& chunk) noexcept {
+                                     Radius radius, const Signals& signals_of_place, Chunk& chunk) noexcept {
   constexpr int values = Signals::count > 0 ? Chunk::signals : 0;
   Collector<const Neighbors> n = all;
   const Signals signals = signals_of_place;
@@ -5215,7 +5268,7 @@ template <class Cells, bool Exact, class Neighbors, class Signals, class Chunk>
     const std::uint32_t end = first + stretches.length;
     for (std::uint32_t i = first; i < end; i += simd::lanes) {
       const NeighborLanes v = load_neighbors(n, i);
-      const Located<values> now = locate_register<Cells, Exact, values>(v, axes, radius, borders, signals);
+      const Located<values> now = locate_register<Cells, Borders, values>(v, axes, radius, signals);
       if (every(now.described)) {
         append(chunk, size, v.index, now, signals);
         size += static_cast<std::uint32_t>(simd::lanes);
@@ -6369,8 +6422,8 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
   [[maybe_unused]] Quad quads[has_quads ? simd::lanes * static_cast<std::size_t>(quads_of<D>()) : 1];
   if constexpr (has_quads) std::memset(quads, 0, sizeof quads);
   for (std::uint32_t i = 0; i * ChunkSize < n.size; ++i) {
-    locate<typename D::Cells, (D::shell_borders > 1)>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
-                                                      D::shell_borders, of_place, chunk);
+    locate<typename D::Cells, typename D::ShellBorders>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
+                                                        of_place, chunk);
     measure_all_by_index(Signals{}, seen, chunk);
     if constexpr (has_quads) {
       add_soft_votes(D{}, parts, chunk, static_cast<float>(unit.one), quads);
@@ -7956,8 +8009,14 @@ inline constexpr bool has_halves = false;
 [[nodiscard, gnu::always_inline]] inline std::uint32_t add_squared_differences(std::uint32_t a, std::uint32_t b,
                                                                                std::uint32_t sum) noexcept {
 #if defined(SHORTSHOT_HAS_HALVES)
-  const auto even = static_cast<std::int32_t>(__usub16(__uxtb16(a), __uxtb16(b)));
-  const auto odd = static_cast<std::int32_t>(__usub16(__uxtb16(a >> 8), __uxtb16(b >> 8)));
+#if defined(__clang__)
+  using Bytes = int8x4_t;  // its header says so; GCC's has the sign of the instruction
+#else
+  using Bytes = uint8x4_t;
+#endif
+  const auto halves = [](std::uint32_t v) { return static_cast<uint16x2_t>(__uxtb16(static_cast<Bytes>(v))); };
+  const auto even = static_cast<std::int32_t>(__usub16(halves(a), halves(b)));
+  const auto odd = static_cast<std::int32_t>(__usub16(halves(a >> 8), halves(b >> 8)));
   const std::int32_t half = __smlad(even, even, static_cast<std::int32_t>(sum));  // sums wrap, as unsigned ones do
   return static_cast<std::uint32_t>(__smlad(odd, odd, half));
 #else
@@ -9569,15 +9628,13 @@ class KnownNormals {
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-[[nodiscard]] inline float absolute(float v) noexcept { return v < 0.0f ? 0.0f - v : v; }
-
 /// Are up to eight of the neighbors where the cloud has them? The search says where they lie and which points they are:
 /// one over another cloud, or over what was in this memory before, says it of other places. To the last bit, but for
 /// compilers that compute in longer registers.
 [[nodiscard]] inline bool is_of(const CloudView& cloud, const Point& center, const Neighborhood& n) noexcept {
   constexpr std::uint32_t most = 8;
   const std::uint32_t looked_at = n.size < most ? n.size : most;
-  const auto agree = [](float a, float b) { return absolute(a - b) <= 1e-6f * absolute(a); };
+  const auto agree = [](float a, float b) { return __builtin_fabsf(a - b) <= 1e-6f * __builtin_fabsf(a); };
   for (std::uint32_t k = 0; k < looked_at; ++k) {
     const auto i = static_cast<std::uint32_t>(std::uint64_t{n.size} * k / looked_at);
     if (n.index[i] >= cloud.size) return false;
@@ -9599,9 +9656,10 @@ template <class Search>
 
 /// How far apart floats lie at a point's largest coordinate.
 [[nodiscard]] inline float float_spacing(const Point& p) noexcept {
-  float largest = absolute(p.x);
-  if (absolute(p.y) > largest) largest = absolute(p.y);
-  if (absolute(p.z) > largest) largest = absolute(p.z);
+  float largest = 0.0f;
+  for (const float v : {p.x, p.y, p.z}) {
+    if (__builtin_fabsf(v) > largest) largest = __builtin_fabsf(v);
+  }
   return math::float_of(math::bits_of(largest) & 0x7F800000u) * 1.1920929e-7f;
 }
 

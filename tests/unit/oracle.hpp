@@ -143,7 +143,7 @@ struct Config {
 };
 
 struct Description {
-  std::vector<double> values;  // L2 norm 1
+  std::vector<double> values;  // L2 norm 1, but for those of votes()
   double border = 1.0;         // smallest distance, in cells, of any neighbor from a place where the voting rule jumps
 };
 
@@ -213,9 +213,16 @@ inline void vote(const Part& part, Voting voting, const std::vector<AxisPosition
 
 }  // namespace detail
 
-/// The descriptor of sorted neighbors. `rgb` may be empty if no part has bins.
-inline Description describe(const std::vector<Neighbor>& sorted, const std::vector<std::uint8_t>& rgb,
-                            const Bytes3& reference, const ShotFrame& frame, float radius, const Config& config) {
+/// Positions as they are.
+struct AsTheyAre {
+  double operator()(int, double raw) const { return raw; }
+};
+
+/// The sums of votes of sorted neighbors, not normalized. `adjust(axis, raw)` gives the position to take in place of
+/// `raw`, in cells: part by part, neighbor by neighbor, axis by axis (0 to 3: radius, elevation, azimuth, bin).
+template <class Adjust = AsTheyAre>
+Description votes(const std::vector<Neighbor>& sorted, const std::vector<std::uint8_t>& rgb, const Bytes3& reference,
+                  const ShotFrame& frame, float radius, const Config& config, Adjust adjust = {}) {
   Description result;
   for (const Part& part : config.parts) {
     const int size = part.radial * part.elevation * part.azimuth * std::max(1, part.bins);
@@ -224,7 +231,8 @@ inline Description describe(const std::vector<Neighbor>& sorted, const std::vect
     for (const Neighbor& n : sorted) {
       if (n.d2 <= 1e-15f) continue;  // the key point and its copies
       const auto along = [&n](const Vec3f& axis) {
-        return static_cast<double>((n.v[0] * axis[0] + n.v[2] * axis[2]) + n.v[1] * axis[1]);
+        const float sum = (n.v[0] * axis[0] + n.v[2] * axis[2]) + (n.v[1] * axis[1] + 0.0f);  // never -0
+        return static_cast<double>(sum);
       };
       const double x = along(frame.x);
       const double y = along(frame.y);
@@ -245,13 +253,22 @@ inline Description describe(const std::vector<Neighbor>& sorted, const std::vect
         const double distance = color_distance(lab(own, config.lab_rule), lab(reference, config.lab_rule));
         axes.push_back({rounded(part.bins * distance), part.bins, false, distance == 0.0});
       }
-      for (detail::AxisPosition& axis : axes) {
+      for (std::size_t k = 0; k < axes.size(); ++k) {
+        detail::AxisPosition& axis = axes[k];
+        axis.raw = adjust(static_cast<int>(k), axis.raw);
         axis.split(config.voting);
         result.border = std::min(result.border, axis.border(config.voting));
       }
       detail::vote(part, config.voting, axes, result.values.data() + offset);
     }
   }
+  return result;
+}
+
+/// The descriptor of sorted neighbors. `rgb` may be empty if no part has bins.
+inline Description describe(const std::vector<Neighbor>& sorted, const std::vector<std::uint8_t>& rgb,
+                            const Bytes3& reference, const ShotFrame& frame, float radius, const Config& config) {
+  Description result = votes(sorted, rgb, reference, frame, radius, config);
   double squared_norm = 0.0;
   for (const double value : result.values) squared_norm += value * value;
   for (double& value : result.values) value /= std::sqrt(squared_norm);

@@ -88,7 +88,9 @@ inline double shot_dot(const Vec3f& a, const Vec3f& b) {
 struct ShotPlace {
   ShotShare axes[3];
 
-  ShotPlace(const Neighbor& n, const ShotFrame& frame, double radius, const ShotPart& part, double log_ratio) {
+  template <class Adjust>
+  ShotPlace(const Neighbor& n, const ShotFrame& frame, double radius, const ShotPart& part, double log_ratio,
+            Adjust& adjust) {
     const double pi = std::acos(-1.0);
     const double x = shot_dot(n.v, frame.x);
     const double y = shot_dot(n.v, frame.y);
@@ -96,9 +98,9 @@ struct ShotPlace {
     const double angle = std::acos(std::max(-1.0, std::min(1.0, shot_dot(n.v, frame.z) / distance)));
     const double log_shell = (part.radial - 1) * (1.0 - std::log(distance / radius) / std::log(log_ratio)) + 1.0;
     const double shell = log_ratio > 0.0 ? std::max(0.0, log_shell) : part.radial * distance / radius;
-    axes[0] = shot_share(shell, part.radial, false);
-    axes[1] = shot_share(part.elevation * (pi - angle) / pi, part.elevation, false);
-    axes[2] = shot_share(part.azimuth * (std::atan2(y, x) + pi) / (2.0 * pi), part.azimuth, true);
+    axes[0] = shot_share(adjust(0, shell), part.radial, false);
+    axes[1] = shot_share(adjust(1, part.elevation * (pi - angle) / pi), part.elevation, false);
+    axes[2] = shot_share(adjust(2, part.azimuth * (std::atan2(y, x) + pi) / (2.0 * pi)), part.azimuth, true);
     if (x == 0.0 && y == 0.0) {  // the first sector, and no vote for it or its neighbors
       axes[2] = {};
       axes[2].q = 1.0;
@@ -123,13 +125,12 @@ inline void shot_vote(const ShotPart& part, const ShotPlace& place, const ShotSh
 
 }  // namespace detail
 
-/// The descriptor of sorted neighbors. `normals` holds three floats for each point of the cloud, not finite where it
-/// has none; `rgb` may be empty if no part has colors.
-inline ShotDescription describe_shot(const std::vector<Neighbor>& sorted, const std::vector<float>& normals,
-                                     const std::vector<std::uint8_t>& rgb, const Bytes3& reference,
-                                     const ShotFrame& frame, double radius, const ShotConfig& config) {
+/// The sums of votes of sorted neighbors, not normalized; `adjust` as for votes().
+template <class Adjust = AsTheyAre>
+ShotDescription shot_votes(const std::vector<Neighbor>& sorted, const std::vector<float>& normals,
+                           const std::vector<std::uint8_t>& rgb, const Bytes3& reference, const ShotFrame& frame,
+                           double radius, const ShotConfig& config, Adjust adjust = {}) {
   ShotDescription result;
-  double squared_norm = 0.0;
   for (const ShotPart& part : config.parts) {
     const std::size_t offset = result.values.size();
     const int size = part.radial * part.elevation * part.azimuth * (part.bins + 1);
@@ -145,13 +146,23 @@ inline ShotDescription describe_shot(const std::vector<Neighbor>& sorted, const 
       } else {
         signal = (1.0 + std::max(-1.0, std::min(1.0, detail::shot_dot(normal, frame.z)))) / 2.0;
       }
-      const detail::ShotPlace place(n, frame, radius, part, config.log_ratio);
-      const ShotShare bin = detail::shot_bin(signal * part.bins, part.bins, config.wrap);
+      const detail::ShotPlace place(n, frame, radius, part, config.log_ratio, adjust);
+      const ShotShare bin = detail::shot_bin(adjust(3, signal * part.bins), part.bins, config.wrap);
       detail::shot_vote(part, place, bin, result.values.data() + offset);
       for (const ShotShare& axis : place.axes) result.border = std::min(result.border, axis.border);
       result.border = std::min(result.border, bin.border);
     }
   }
+  return result;
+}
+
+/// The descriptor of sorted neighbors. `normals` holds three floats for each point of the cloud, not finite where it
+/// has none; `rgb` may be empty if no part has colors.
+inline ShotDescription describe_shot(const std::vector<Neighbor>& sorted, const std::vector<float>& normals,
+                                     const std::vector<std::uint8_t>& rgb, const Bytes3& reference,
+                                     const ShotFrame& frame, double radius, const ShotConfig& config) {
+  ShotDescription result = shot_votes(sorted, normals, rgb, reference, frame, radius, config);
+  double squared_norm = 0.0;
   for (const double value : result.values) squared_norm += value * value;
   result.exists = sorted.size() >= 5 && squared_norm > 0.0;
   for (double& value : result.values) value = result.exists ? value / std::sqrt(squared_norm) : 0.0;

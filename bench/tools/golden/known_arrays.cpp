@@ -7,6 +7,7 @@
 #include "shortshot/color/lab.hpp"
 #include "shortshot/descriptor/compact.hpp"
 #include "shortshot/descriptor/descriptor.hpp"
+#include "shortshot/descriptor/signals.hpp"
 #include "shortshot/descriptor/spherical_grid.hpp"
 #include "shortshot/descriptor/voting.hpp"
 #include "shortshot/kernel/describe.hpp"
@@ -36,8 +37,31 @@ void to_nibbles(const float* row, std::uint8_t* out) {
   std::copy_n(nibbles.bytes, sizeof nibbles.bytes, out);
 }
 
-template <class Voting>
-constexpr bool is_continuous = std::is_same_v<Voting, shortshot::MultilinearVoting>;
+template <class D>
+constexpr Sharing sharing_of = std::is_same_v<typename D::Voting, shortshot::MultilinearVoting> ? Sharing::continuous
+                               : std::is_same_v<typename D::Voting, shortshot::PclVoting>       ? Sharing::shot
+                                                                                                : Sharing::published;
+
+template <class Signal>
+constexpr bool is_of_colors = false;
+template <int Bins, class Rule, class Reference>
+constexpr bool is_of_colors<shortshot::ColorDistance<Bins, Rule, Reference>> = true;
+
+template <class Part>
+Histogram histogram_of() {
+  using Grid = typename Part::Grid;
+  int bins = 0;
+  if constexpr (Part::has_histogram) bins = Part::Signal::bins;
+  return {Grid::radial, Grid::elevation, Grid::azimuth, bins, is_of_colors<typename Part::Signal>};
+}
+
+template <class Voting, class... Parts>
+std::vector<Histogram> histograms_of(const shortshot::Descriptor<Voting, Parts...>&) {
+  if constexpr (std::is_same_v<Voting, shortshot::MultilinearVoting>)
+    return {};
+  else
+    return {histogram_of<Parts>()...};
+}
 
 // Sums of votes are off by what their rounding is. Roots of them are more: the slope of a root grows without limit
 // towards 0, and a share that should be 0 but is 1e-8 has a root of 1e-4.
@@ -51,7 +75,8 @@ constexpr DescriptorOutput output_of(const char* name) {
           D::needs_colors,
           D::needs_normals,
           row_l2_of<D>,
-          !is_continuous<typename D::Voting>,
+          sharing_of<D>,
+          [] { return histograms_of(D{}); },
           describe_by<D>,
           static_cast<double>(shortshot::code_scale<D, 4>),
           to_nibbles<D>};

@@ -29,6 +29,17 @@ struct KnownArray {
 
 std::optional<KnownArray> find_known_array(const std::string& name);
 
+// How votes are shared: by the rule of the published code or of PCL's SHOT, where they jump at the borders and in the
+// middles of cells, or without jumps.
+enum class Sharing { published, shot, continuous };
+
+// A histogram of one signal in the cells of a spherical grid.
+struct Histogram {
+  int radial, elevation, azimuth;
+  int bins;  // 0: of occupancy, one value a cell
+  bool of_colors;
+};
+
 // The configuration of a descriptor whose output an array holds.
 struct DescriptorOutput {
   const char* name;
@@ -36,7 +47,8 @@ struct DescriptorOutput {
   bool needs_colors;
   bool needs_normals;
   double row_l2;  // how far a row may be from the reference's, as an L2 distance
-  bool jumps;     // do votes move at once where a point crosses a cell's border?
+  Sharing sharing;
+  std::vector<Histogram> (*histograms)();  // none of continuous ones
   // describe() of the library; `key_color` and the cloud's colors and normals are looked at only if they are needed.
   shortshot::Status (*describe)(const shortshot::Neighborhood& n, const shortshot::CloudView& cloud,
                                 shortshot::Rgb key_color, const shortshot::Frame& frame, shortshot::Radius radius,

@@ -10,10 +10,9 @@ int main(int argc, char** argv) {
   using namespace shortshot_bench::golden;
   CLI::App app{
       "Compares shortshot with golden vectors: for each folder and array the largest differences and whether "
-      "they are within tolerance.\nFrames that the neighborhood does not determine are explained; they "
-      "count "
-      "as beyond tolerance but not as differences.\nExit code 0: all are within; 1: one is not; 2: bad "
-      "input."};
+      "they are within tolerance.\nFrames that the neighborhood does not determine are explained; they count as beyond "
+      "tolerance but not as differences. So are rows whose votes jump within rounding of a border between cells, if "
+      "that can make all the difference.\nExit code 0: all are within, or explained; 1: one is not; 2: bad input."};
   std::vector<std::string> paths;
   bool verbose = false;
   app.add_option("folders", paths, "folders with a case.json; plain files are skipped")->required();

@@ -85,31 +85,26 @@ inline constexpr float least_normal = 1.17549435e-38f;
 /// The largest power of two not above a positive normal number.
 [[nodiscard]] inline float power_of_two_below(float value) noexcept { return float_of(bits_of(value) & 0x7F800000u); }
 
-/// What length() needs to know of vectors no longer than `longest`: 1.5 * 2^23 quanta, each 2^-10 of its power of two.
-[[nodiscard]] inline float length_splitter(float longest) noexcept {
-  return unfused(power_of_two_below(longest) * 12288.0f);
+/// The nearest multiple of a quantum, of a number not above R for a splitter of 12288 R: products of two such numbers,
+/// and sums of three products, are exact.
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 coarse(simd::F32 value, float splitter) noexcept {
+  return (value + simd::all(splitter)) - simd::all(splitter);
 }
 
-/// sqrt(x^2 + y^2 + z^2), correctly rounded but for one case in a thousand. Points of a regular grid lie exactly on
-/// the borders of shells, where one bit decides which neighboring shell gets a vote; the published code has double.
-/// Each argument is split in a multiple of a common quantum, whose squares add up exactly, and a small rest.
-[[nodiscard]] inline simd::F32 length(simd::F32 x, simd::F32 y, simd::F32 z, float splitter) noexcept {
+/// How much longer a vector is than `length`, which is about as long as it and given as the sum of a coarse() number
+/// and a small rest: to some bits more than a float of the length itself has. Squares of coarse parts cancel exactly.
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 length_beyond(simd::F32 x, simd::F32 y, simd::F32 z, simd::F32 coarse_length,
+                                                       simd::F32 rest, float splitter) noexcept {
   using simd::F32;
-  const F32 quantum = simd::all(splitter);
-  const auto coarse = [&](F32 v) { return (v + quantum) - quantum; };
   const F32 of[3] = {x, y, z};
-  F32 exact = simd::all(0.0f);
-  F32 rest = simd::all(0.0f);
+  F32 exact = simd::all(0.0f) - coarse_length * coarse_length;
+  F32 small = simd::all(0.0f) - rest * (coarse_length + coarse_length + rest);
   detail::each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
-    const F32 part = coarse(of[k]);
+    const F32 part = coarse(of[k], splitter);
     exact = exact + part * part;
-    rest = rest + (of[k] - part) * (of[k] + part);
+    small = small + (of[k] - part) * (of[k] + part);
   });
-
-  const F32 root = simd::sqrt(exact + rest);
-  const F32 coarse_root = coarse(root);
-  const F32 error = (exact - coarse_root * coarse_root) + (rest - (root - coarse_root) * (root + coarse_root));
-  return root + error / simd::max(root + root, simd::all(least_normal));
+  return (exact + small) / (coarse_length + coarse_length);
 }
 
 }  // namespace SHORTSHOT_CODE

@@ -24,8 +24,14 @@ inline constexpr bool has_halves = false;
 [[nodiscard, gnu::always_inline]] inline std::uint32_t add_squared_differences(std::uint32_t a, std::uint32_t b,
                                                                                std::uint32_t sum) noexcept {
 #if defined(SHORTSHOT_HAS_HALVES)
-  const auto even = static_cast<std::int32_t>(__usub16(__uxtb16(a), __uxtb16(b)));
-  const auto odd = static_cast<std::int32_t>(__usub16(__uxtb16(a >> 8), __uxtb16(b >> 8)));
+#if defined(__clang__)
+  using Bytes = int8x4_t;  // its header says so; GCC's has the sign of the instruction
+#else
+  using Bytes = uint8x4_t;
+#endif
+  const auto halves = [](std::uint32_t v) { return static_cast<uint16x2_t>(__uxtb16(static_cast<Bytes>(v))); };
+  const auto even = static_cast<std::int32_t>(__usub16(halves(a), halves(b)));
+  const auto odd = static_cast<std::int32_t>(__usub16(halves(a >> 8), halves(b >> 8)));
   const std::int32_t half = __smlad(even, even, static_cast<std::int32_t>(sum));  // sums wrap, as unsigned ones do
   return static_cast<std::uint32_t>(__smlad(odd, odd, half));
 #else

@@ -44,7 +44,7 @@ template <class Function>
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {vaddq_f32(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {vsubq_f32(a.v, b.v)}; }
 [[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {unfused(vmulq_f32(a.v, b.v))}; }
-[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {vdivq_f32(a.v, b.v)}; }
+[[nodiscard]] inline F32 operator/(F32 a, F32 b) noexcept { return {unfused(vdivq_f32(a.v, b.v))}; }
 [[nodiscard]] inline I32 operator+(I32 a, I32 b) noexcept { return {vaddq_s32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator<(F32 a, F32 b) noexcept { return {vcltq_f32(a.v, b.v)}; }
 [[nodiscard]] inline Mask operator>(F32 a, F32 b) noexcept { return {vcgtq_f32(a.v, b.v)}; }

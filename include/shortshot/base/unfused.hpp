@@ -31,7 +31,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// A product (a float, or a register of them), rounded as IEEE 754 says. Where the CPU has a fused multiply-add, GCC
 /// and clang may use it for a product and the sum that it goes into, which gives other bits: every product that goes
-/// into a sum must pass through here.
+/// into a sum must pass through here, and every quotient: by a constant, it may become a product.
 template <class Float>
 [[nodiscard]] constexpr Float unfused(Float product) noexcept {
   return __builtin_is_constant_evaluated() ? product : detail::hidden(product);

@@ -17,15 +17,13 @@
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-[[nodiscard]] inline float absolute(float v) noexcept { return v < 0.0f ? 0.0f - v : v; }
-
 /// Are up to eight of the neighbors where the cloud has them? The search says where they lie and which points they are:
 /// one over another cloud, or over what was in this memory before, says it of other places. To the last bit, but for
 /// compilers that compute in longer registers.
 [[nodiscard]] inline bool is_of(const CloudView& cloud, const Point& center, const Neighborhood& n) noexcept {
   constexpr std::uint32_t most = 8;
   const std::uint32_t looked_at = n.size < most ? n.size : most;
-  const auto agree = [](float a, float b) { return absolute(a - b) <= 1e-6f * absolute(a); };
+  const auto agree = [](float a, float b) { return __builtin_fabsf(a - b) <= 1e-6f * __builtin_fabsf(a); };
   for (std::uint32_t k = 0; k < looked_at; ++k) {
     const auto i = static_cast<std::uint32_t>(std::uint64_t{n.size} * k / looked_at);
     if (n.index[i] >= cloud.size) return false;
@@ -47,9 +45,10 @@ template <class Search>
 
 /// How far apart floats lie at a point's largest coordinate.
 [[nodiscard]] inline float float_spacing(const Point& p) noexcept {
-  float largest = absolute(p.x);
-  if (absolute(p.y) > largest) largest = absolute(p.y);
-  if (absolute(p.z) > largest) largest = absolute(p.z);
+  float largest = 0.0f;
+  for (const float v : {p.x, p.y, p.z}) {
+    if (__builtin_fabsf(v) > largest) largest = __builtin_fabsf(v);
+  }
   return math::float_of(math::bits_of(largest) & 0x7F800000u) * 1.1920929e-7f;
 }
 

@@ -63,11 +63,11 @@ struct PublishedCells {
 
   /// Coordinates 0, 1 and 2 of neighbors: distance over the radius, angle from +z over pi, and the angle from -x,
   /// counter-clockwise, in turns; all 0..1.
-  template <bool Exact>
+  template <class Borders>
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 distance(extend::simd::F32 d2,
-                                                                   const extend::PointLanes& local, Radius radius,
-                                                                   float borders) noexcept {
-    if constexpr (Exact) return detail::exact_distance(d2, local, radius, borders);
+                                                                   const extend::PointLanes& local,
+                                                                   Radius radius) noexcept {
+    if constexpr (Borders::grids > 0) return detail::exact_distance<Borders>(d2, local, radius);
     return extend::simd::sqrt(d2) * extend::simd::all(1.0f / radius.value);
   }
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 elevation(const extend::PointLanes& local,
@@ -120,9 +120,9 @@ struct ShotCells {
     return (d2 > extend::simd::all(1e-30f)) & (d2 < extend::simd::all(radius.squared));
   }
 
-  template <bool>
+  template <class>
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 distance(extend::simd::F32 d2, const extend::PointLanes&,
-                                                                   Radius radius, float) noexcept {
+                                                                   Radius radius) noexcept {
     return extend::simd::sqrt(d2) * extend::simd::all(1.0f / radius.value);
   }
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 elevation(const extend::PointLanes& local,

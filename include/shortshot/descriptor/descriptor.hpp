@@ -155,14 +155,6 @@ struct FirstOf {
   using type = First;
 };
 
-/// The smallest common multiple, up to 2^20: as far as floats tell multiples of its inverse apart.
-constexpr int common_multiple(int a, int b) noexcept {
-  constexpr int most = 1 << 20;
-  int multiple = a;
-  while (multiple % b != 0 && multiple < most - a) multiple += a;
-  return multiple % b == 0 ? multiple : most;
-}
-
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::detail
 
@@ -218,13 +210,13 @@ struct Descriptor {
     return bits;
   }();
 
-  /// All borders and middles of its shells are multiples of R / shell_borders; 1: none that need more than a float's
-  /// bits.
-  static constexpr int shell_borders = [] {
-    int borders = 1;
-    ((borders = detail::common_multiple(borders, Parts::Scale::borders(Parts::Grid::radial))), ...);
-    return Cells::exact_borders(borders);
-  }();
+  /// Where its votes jump from shell to shell, and a float's own rounding might decide on which side.
+  static constexpr int shell_multiples =
+      Cells::exact_borders(detail::common_multiple(Parts::Scale::borders(Parts::Grid::radial)...));
+  using ShellBorders = std::conditional_t<
+      shell_multiples == 1, extend::ShellBorders<1>,
+      extend::ShellBorders<shell_multiples,
+                           detail::step_between(shell_multiples, Parts::Scale::borders(Parts::Grid::radial))...>>;
 
   /// Do sums become values as they are?
   static constexpr bool is_plain = (std::is_same<typename Parts::Finish, PlainSums>::value && ...);

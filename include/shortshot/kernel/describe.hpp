@@ -87,8 +87,8 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
   [[maybe_unused]] Quad quads[has_quads ? simd::lanes * static_cast<std::size_t>(quads_of<D>()) : 1];
   if constexpr (has_quads) std::memset(quads, 0, sizeof quads);
   for (std::uint32_t i = 0; i * ChunkSize < n.size; ++i) {
-    locate<typename D::Cells, (D::shell_borders > 1)>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
-                                                      D::shell_borders, of_place, chunk);
+    locate<typename D::Cells, typename D::ShellBorders>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
+                                                        of_place, chunk);
     measure_all_by_index(Signals{}, seen, chunk);
     if constexpr (has_quads) {
       add_soft_votes(D{}, parts, chunk, static_cast<float>(unit.one), quads);

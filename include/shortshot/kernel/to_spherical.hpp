@@ -64,14 +64,13 @@ struct Located {
   simd::Mask described;
 };
 
-template <class Cells, bool Exact, int Values, class FrameAxes, class Signals>
+template <class Cells, class Borders, int Values, class FrameAxes, class Signals>
 [[nodiscard]] SHORTSHOT_INLINE Located<Values> locate_register(const NeighborLanes& v, const FrameAxes& frame,
-                                                               Radius radius, float borders,
-                                                               const Signals& signals) noexcept {
+                                                               Radius radius, const Signals& signals) noexcept {
   const PointLanes offset{v.dx, v.dy, v.dz};
   const PointLanes local{along(frame.x, offset), along(frame.y, offset), along(frame.z, offset)};
   Located<Values> located{};
-  located.distance = Cells::template distance<Exact>(v.d2, local, radius, borders);
+  located.distance = Cells::template distance<Borders>(v.d2, local, radius);
   const simd::F32 from_axis = simd::sqrt(local.x * local.x + local.y * local.y);
   located.elevation = Cells::elevation(local, from_axis, radius);
   located.azimuth = Cells::azimuth(local, from_axis);
@@ -98,10 +97,9 @@ SHORTSHOT_INLINE void append(Chunk& chunk, std::uint32_t size, simd::I32 index, 
 
 /// Neighbors into a chunk: from the cloud's coordinates to spherical ones in the frame. (Nothing here depends on the
 /// descriptor but through the arguments: many of them share this.)
-template <class Cells, bool Exact, class Neighbors, class Signals, class Chunk>
+template <class Cells, class Borders, class Neighbors, class Signals, class Chunk>
 [[gnu::noinline]] inline void locate(const Neighbors& all, const Stretches& stretches, const Frame& frame,
-                                     Radius radius, float borders, const Signals& signals_of_place,
-                                     Chunk& chunk) noexcept {
+                                     Radius radius, const Signals& signals_of_place, Chunk& chunk) noexcept {
   constexpr int values = Signals::count > 0 ? Chunk::signals : 0;
   Collector<const Neighbors> n = all;
   const Signals signals = signals_of_place;
@@ -112,7 +110,7 @@ template <class Cells, bool Exact, class Neighbors, class Signals, class Chunk>
     const std::uint32_t end = first + stretches.length;
     for (std::uint32_t i = first; i < end; i += simd::lanes) {
       const NeighborLanes v = load_neighbors(n, i);
-      const Located<values> now = locate_register<Cells, Exact, values>(v, axes, radius, borders, signals);
+      const Located<values> now = locate_register<Cells, Borders, values>(v, axes, radius, signals);
       if (every(now.described)) {
         append(chunk, size, v.index, now, signals);
         size += static_cast<std::uint32_t>(simd::lanes);

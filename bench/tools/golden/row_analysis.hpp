@@ -1,0 +1,28 @@
+// Why two rows of a descriptor differ where its votes jump: which neighbors lie within rounding of a border, and
+// whether that can make all the difference. Worked out by the tests' oracle, in double and apart from the library.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "case.hpp"
+#include "known_arrays.hpp"
+
+namespace shortshot_bench::golden {
+
+inline constexpr int border_kinds = 4;
+
+// Neighbors within rounding of a border: of shells, of cells in elevation, in azimuth, of bins. (Middles of cells count
+// as borders: votes for partners jump there.)
+struct RowAnalysis {
+  bool explains = false;  // each value of both rows is one that these neighbors' votes on either side can make
+  std::size_t at_border[border_kinds] = {};
+};
+
+const char* name_of_border(int kind);
+
+// Both rows are of the key point `row`, of as many values as the descriptor has, which is not a continuous one.
+RowAnalysis analyze_row(const Case& c, std::size_t row, const DescriptorOutput& descriptor, const float* ours,
+                        const float* reference);
+
+}  // namespace shortshot_bench::golden
