@@ -1946,10 +1946,11 @@ inline namespace SHORTSHOT_CODE {
   const simd::F32 r = all(radius.value);
   const simd::F32 coarse_r = math::coarse(r, splitter);
   const simd::F32 units = all(per_radius);
+  const simd::F32 unit = r / units;
   // multiple * R / per_radius in two parts
-  const simd::F32 large = math::coarse(multiple * r / units, splitter);
+  const simd::F32 large = math::coarse(multiple * unit, splitter);
   const simd::F32 rest = ((multiple * coarse_r - units * large) + multiple * (r - coarse_r)) / units;
-  return math::length_beyond(vector.x, vector.y, vector.z, large, rest, splitter) * units / r;
+  return math::length_beyond(vector.x, vector.y, vector.z, large, rest, splitter) / unit;
 }
 
 /// How far a place beyond a multiple of R / per_radius is from it as the published code sees it, which rounds a
@@ -1966,8 +1967,7 @@ template <class Borders>
     const simd::F32 off = (halves + beyond / step) - halves;
     // Even numbers of halves are borders, odd ones middles: whole if the votes of this grid jump on that side.
     const simd::F32 jumps = all(0.5f) * select(off > all(0.0f), halves + all(1.0f), halves);
-    const simd::Mask do_jump = all(1e-6f) > simd::abs(jumps - simd::to_whole(jumps));
-    rounded = select(do_jump, rounded + off * step, rounded);
+    rounded = select(jumps != simd::to_whole(jumps), rounded, rounded + off * step);
   }
   return rounded;
 }
@@ -1987,9 +1987,9 @@ template <class Borders>
     const simd::F32 beyond = units_beyond(local, multiple, radius, Borders::per_radius);
     const simd::F32 side = rounded_beyond<Borders>(multiple, beyond);
     // Twice as far from the border as it is, which no rounding on the way from here to a cell undoes.
-    const simd::F32 exact = (multiple + simd::all(2.0f) * side) / simd::all(Borders::per_radius);
+    const simd::F32 exact = ((multiple + side) + side) / simd::all(Borders::per_radius);
     // A frame that is not quite orthonormal must not move its neighbors from border to border.
-    const simd::Mask same = rounding + rounding > simd::abs(beyond);
+    const simd::Mask same = rounding > simd::abs(beyond);
     return select(near & same, exact, distance);
   }
   return distance;
