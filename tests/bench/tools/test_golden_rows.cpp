@@ -35,6 +35,7 @@ void write_scsh_with_other_sides(const CaseCopy& copy, int moved_axis) {
   std::vector<float> rows = copy.values<float>("scsh_32_8_10");
   constexpr std::size_t size = 112;
   for (std::size_t row = 0; row < edge.keypoints.size(); ++row) {
+    if (std::isnan(rows[size * row])) continue;
     const std::size_t key = edge.keypoints[row];
     const float* axes = edge.frames.data() + 9 * row;
     const auto neighbors = oracle::neighbors(
@@ -53,7 +54,7 @@ void write_scsh_with_other_sides(const CaseCopy& copy, int moved_axis) {
             .values;
     double squares = 0.0;
     for (const double value : votes) squares += value * value;
-    if (std::isnan(rows[size * row]) || squares == 0.0) continue;
+    if (squares == 0.0) continue;
     for (std::size_t i = 0; i < size; ++i) rows[size * row + i] = static_cast<float>(votes[i] / std::sqrt(squares));
   }
   copy.write_values("scsh_32_8_10", rows);
