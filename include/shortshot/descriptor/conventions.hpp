@@ -15,7 +15,6 @@
 #include "../search/neighborhood.hpp"
 #include "../search/radius.hpp"
 #include "axis.hpp"
-#include "exact_shells.hpp"
 
 namespace shortshot::extend {
 inline namespace SHORTSHOT_TYPES {
@@ -61,15 +60,8 @@ struct PublishedCells {
     return (d2 > extend::simd::all(1e-15f)) & (d2 < extend::simd::all(radius.squared));
   }
 
-  /// Coordinates 0, 1 and 2 of neighbors: distance over the radius, angle from +z over pi, and the angle from -x,
-  /// counter-clockwise, in turns; all 0..1.
-  template <class Borders>
-  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 distance(extend::simd::F32 d2,
-                                                                   const extend::PointLanes& local,
-                                                                   Radius radius) noexcept {
-    if constexpr (Borders::grids > 0) return detail::exact_distance<Borders>(d2, local, radius);
-    return extend::simd::sqrt(d2) * extend::simd::all(1.0f / radius.value);
-  }
+  /// Coordinates 1 and 2 of neighbors (0 is the distance over the radius): the angle from +z over pi, and the angle
+  /// from -x, counter-clockwise, in turns; both 0..1.
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 elevation(const extend::PointLanes& local,
                                                                     extend::simd::F32 from_axis, Radius) noexcept {
     return extend::math::elevation(from_axis, local.z);
@@ -120,11 +112,6 @@ struct ShotCells {
     return (d2 > extend::simd::all(1e-30f)) & (d2 < extend::simd::all(radius.squared));
   }
 
-  template <class>
-  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 distance(extend::simd::F32 d2, const extend::PointLanes&,
-                                                                   Radius radius) noexcept {
-    return extend::simd::sqrt(d2) * extend::simd::all(1.0f / radius.value);
-  }
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 elevation(const extend::PointLanes& local,
                                                                     extend::simd::F32 from_axis, Radius) noexcept {
     return extend::math::elevation(from_axis, local.z);

@@ -10,6 +10,7 @@
 #include "axis.hpp"
 #include "concepts.hpp"
 #include "conventions.hpp"
+#include "exact_shells.hpp"
 #include "finish_rules.hpp"
 #include "signals.hpp"
 #include "source_set.hpp"

@@ -88,8 +88,10 @@ template <class Borders>
 /// one bit decides which neighboring shell gets a vote: there, and only there, they fall on the side on which the
 /// published code has them.
 template <class Borders>
-[[nodiscard]] SHORTSHOT_INLINE simd::F32 exact_distance(simd::F32 d2, const PointLanes& local, Radius radius) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 distance_over_radius(simd::F32 d2, const PointLanes& local,
+                                                              Radius radius) noexcept {
   const simd::F32 distance = simd::sqrt(d2) * simd::all(1.0f / radius.value);
+  if constexpr (Borders::grids == 0) return distance;
   const simd::F32 position = distance * simd::all(Borders::per_radius);
   const simd::F32 nearest = simd::to_whole(position);
   const simd::F32 rounding = simd::all(1e-6f * Borders::per_radius);

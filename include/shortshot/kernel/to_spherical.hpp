@@ -11,6 +11,7 @@
 #include "../base/unroll.hpp"
 #include "../cloud/point_lanes.hpp"
 #include "../config.hpp"
+#include "../descriptor/exact_shells.hpp"
 #include "../frame/frame.hpp"
 #include "../search/neighborhood.hpp"
 #include "../search/radius.hpp"
@@ -70,7 +71,7 @@ template <class Cells, class Borders, int Values, class FrameAxes, class Signals
   const PointLanes offset{v.dx, v.dy, v.dz};
   const PointLanes local{along(frame.x, offset), along(frame.y, offset), along(frame.z, offset)};
   Located<Values> located{};
-  located.distance = Cells::template distance<Borders>(v.d2, local, radius);
+  located.distance = distance_over_radius<Borders>(v.d2, local, radius);
   const simd::F32 from_axis = simd::sqrt(local.x * local.x + local.y * local.y);
   located.elevation = Cells::elevation(local, from_axis, radius);
   located.azimuth = Cells::azimuth(local, from_axis);
