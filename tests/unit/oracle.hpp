@@ -40,6 +40,11 @@ struct ShotFrame {
   Vec3f x{}, y{}, z{};
 };
 
+/// Of three axes that are given, three floats each.
+inline ShotFrame given_frame(const float* x, const float* y, const float* z) {
+  return {true, true, {x[0], x[1], x[2]}, {y[0], y[1], y[2]}, {z[0], z[1], z[2]}};
+}
+
 namespace detail {
 
 /// Turns the axis as the vote says; false if neighbors in the axis' normal plane could turn the result.
@@ -265,13 +270,18 @@ Description votes(const std::vector<Neighbor>& sorted, const std::vector<std::ui
   return result;
 }
 
+inline double squared_norm(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return sum;
+}
+
 /// The descriptor of sorted neighbors. `rgb` may be empty if no part has bins.
 inline Description describe(const std::vector<Neighbor>& sorted, const std::vector<std::uint8_t>& rgb,
                             const Bytes3& reference, const ShotFrame& frame, float radius, const Config& config) {
   Description result = votes(sorted, rgb, reference, frame, radius, config);
-  double squared_norm = 0.0;
-  for (const double value : result.values) squared_norm += value * value;
-  for (double& value : result.values) value /= std::sqrt(squared_norm);
+  const double norm = std::sqrt(squared_norm(result.values));
+  for (double& value : result.values) value /= norm;
   return result;
 }
 

@@ -162,10 +162,9 @@ inline ShotDescription describe_shot(const std::vector<Neighbor>& sorted, const 
                                      const std::vector<std::uint8_t>& rgb, const Bytes3& reference,
                                      const ShotFrame& frame, double radius, const ShotConfig& config) {
   ShotDescription result = shot_votes(sorted, normals, rgb, reference, frame, radius, config);
-  double squared_norm = 0.0;
-  for (const double value : result.values) squared_norm += value * value;
-  result.exists = sorted.size() >= 5 && squared_norm > 0.0;
-  for (double& value : result.values) value = result.exists ? value / std::sqrt(squared_norm) : 0.0;
+  const double norm = std::sqrt(squared_norm(result.values));
+  result.exists = sorted.size() >= 5 && norm > 0.0;
+  for (double& value : result.values) value = result.exists ? value / norm : 0.0;
   return result;
 }
 

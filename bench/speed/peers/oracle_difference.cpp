@@ -19,10 +19,6 @@ oracle::Config config_of(OracleDescriptors::Kind kind) {
   return {oracle::Voting::published, {{3, 4, 8}, {2, 2, 4, 15}}};
 }
 
-oracle::ShotFrame given(const shortshot::Frame& f) {
-  return {true, true, {f.x[0], f.x[1], f.x[2]}, {f.y[0], f.y[1], f.y[2]}, {f.z[0], f.z[1], f.z[2]}};
-}
-
 }  // namespace
 
 OracleDescriptors::OracleDescriptors(const Task& task, Kind kind) : expected_(task.keypoints.size()) {
@@ -36,9 +32,9 @@ OracleDescriptors::OracleDescriptors(const Task& task, Kind kind) : expected_(ta
     const shortshot::Neighborhood& n = neighbors.gather(search, p, task.radius);
     if (shortshot::estimate_frame(n, task.radius, frame) != shortshot::Status::ok) continue;
     const shortshot::Rgb color = shortshot::color(view, key);
-    oracle::Description description =
-        oracle::describe(oracle::neighbors(task.points.xyz, {p.x, p.y, p.z}, task.radius * task.radius),
-                         task.points.rgb, {color.r, color.g, color.b}, given(frame), task.radius, config_of(kind));
+    oracle::Description description = oracle::describe(
+        oracle::neighbors(task.points.xyz, {p.x, p.y, p.z}, task.radius * task.radius), task.points.rgb,
+        {color.r, color.g, color.b}, oracle::given_frame(frame.x, frame.y, frame.z), task.radius, config_of(kind));
     if (description.border > clear_border) expected_[row] = std::move(description.values);
   }
 }

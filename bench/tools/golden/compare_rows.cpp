@@ -27,24 +27,6 @@ bool is_all_zero(const float* values, std::size_t size) {
   return std::all_of(values, values + size, [](float v) { return v >= 0.0F && v <= 0.0F; });
 }
 
-// Neighbors within rounding of a border, in rows beyond tolerance.
-struct BorderCounts {
-  std::size_t neighbors[border_kinds] = {};
-
-  void add(const RowAnalysis& analysis) {
-    for (int k = 0; k < border_kinds; ++k) neighbors[k] += analysis.at_border[k];
-  }
-  // "at a border: 2 shell, 1 azimuth"
-  std::string text() const {
-    std::string list;
-    for (int k = 0; k < border_kinds; ++k) {
-      if (neighbors[k] == 0) continue;
-      list += (list.empty() ? "at a border: " : ", ") + std::to_string(neighbors[k]) + " " + name_of_border(k);
-    }
-    return list;
-  }
-};
-
 // One descriptor row: the status and the values that the library gives, against the reference's.
 void compare_row(const Case& c, std::size_t row, shortshot::Status status, const std::vector<float>& ours,
                  const float* reference, const DescriptorOutput& descriptor, BorderCounts& counts, Result& result) {
@@ -52,24 +34,20 @@ void compare_row(const Case& c, std::size_t row, shortshot::Status status, const
   if (none_expected && status != shortshot::Status::ok && is_all_zero(ours.data(), ours.size())) return;
   const Difference difference = difference_of(ours.data(), reference, ours.size());
   result.add_difference(difference.largest, difference.l2);
-  const bool can_explain = descriptor.sharing != Sharing::continuous && !none_expected;
+  if (status == shortshot::Status::ok && difference.l2 <= descriptor.row_l2) return;
   RowAnalysis analysis;
   std::string why;
   if (status != shortshot::Status::ok) {
-    why = shortshot::message(status);
-  } else if (difference.l2 <= descriptor.row_l2) {
-    return;
+    why = std::string(", ") + shortshot::message(status);
   } else if (none_expected) {
-    why = "the reference has no descriptor";
-  } else if (can_explain) {
+    why = ", the reference has no descriptor";
+  } else if (descriptor.sharing != Sharing::continuous) {
     analysis = analyze_row(c, row, descriptor, ours.data(), reference);
-    BorderCounts of_row;
-    of_row.add(analysis);
-    why = analysis.explains ? of_row.text() : "unexplained";
+    why = analysis.explains ? ", " + analysis.at_border.text() : ", unexplained";
   }
-  counts.add(analysis);
+  counts.add(analysis.at_border);
   result.broken = result.broken || !analysis.explains;
-  result.add_deviation(row, number_text("L2 ", difference.l2) + (why.empty() ? "" : ", ") + why);
+  result.add_deviation(row, number_text("L2 ", difference.l2) + why);
 }
 
 std::string lacking_for(const Case& c, const DescriptorOutput& descriptor) {

@@ -22,7 +22,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // descriptor before it is normalized.
 struct Choices {
   std::vector<std::vector<double>> votes;  // none if the neighbor has none
-  bool is_at_border[border_kinds] = {};
+  BorderCounts at_border;                  // this neighbor: 0 or 1 of each
 };
 
 // One part of a row as the oracle sees it.
@@ -33,7 +33,7 @@ class ExactPart {
     const std::size_t key = c.keypoints[row];
     if (!c.rgb.empty()) color_ = {c.rgb[3 * key], c.rgb[3 * key + 1], c.rgb[3 * key + 2]};
     const float* axes = c.frames.data() + 9 * row;
-    frame_ = {true, true, {axes[0], axes[1], axes[2]}, {axes[3], axes[4], axes[5]}, {axes[6], axes[7], axes[8]}};
+    frame_ = oracle::given_frame(axes, axes + 3, axes + 6);
   }
 
   std::size_t size() const {
@@ -83,11 +83,12 @@ class ExactPart {
   void add_choices(const oracle::Neighbor& neighbor, std::vector<double> positions, std::size_t k,
                    Choices& choices) const {
     if (k == positions.size()) {
-      choices.votes.push_back(votes({neighbor}, [&](int axis, double) { return positions[std::size_t(axis)]; }));
+      choices.votes.push_back(
+          votes({neighbor}, [&](int axis, double) { return positions[static_cast<std::size_t>(axis)]; }));
       return;
     }
     const std::vector<double> sides = sides_of(static_cast<int>(k), positions[k]);
-    choices.is_at_border[k] = sides.size() > 1;
+    choices.at_border.of[k] = sides.size() > 1 ? 1 : 0;
     for (const double side : sides) {
       positions[k] = side;
       add_choices(neighbor, positions, k + 1, choices);
@@ -143,9 +144,18 @@ class Range {
 
 }  // namespace
 
-const char* name_of_border(int kind) {
+void BorderCounts::add(const BorderCounts& other) {
+  for (std::size_t k = 0; k < border_kinds; ++k) of[k] += other.of[k];
+}
+
+std::string BorderCounts::text() const {
   constexpr const char* names[border_kinds] = {"shell", "elevation", "azimuth", "bin"};
-  return names[kind];
+  std::string list;
+  for (std::size_t k = 0; k < border_kinds; ++k) {
+    if (of[k] == 0) continue;
+    list += (list.empty() ? "at a border: " : ", ") + std::to_string(of[k]) + " " + names[k];
+  }
+  return list;
 }
 
 RowAnalysis analyze_row(const Case& c, std::size_t row, const DescriptorOutput& descriptor, const float* ours,
@@ -163,7 +173,7 @@ RowAnalysis analyze_row(const Case& c, std::size_t row, const DescriptorOutput& 
       const Choices choices = part.choices_of(neighbor);
       if (choices.votes.empty()) continue;
       range.add(choices);
-      for (int k = 0; k < border_kinds; ++k) analysis.at_border[k] += choices.is_at_border[k] ? 1 : 0;
+      analysis.at_border.add(choices.at_border);
     }
   }
   analysis.explains = range.holds(ours, descriptor.row_l2) && range.holds(reference, descriptor.row_l2);

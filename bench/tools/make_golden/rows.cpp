@@ -14,9 +14,7 @@ std::vector<oracle::Neighbor> neighbors_of(const Cloud& cloud, std::int32_t keyp
   return oracle::neighbors(cloud.points, cloud.point(static_cast<std::size_t>(keypoint)), radius * radius);
 }
 
-oracle::ShotFrame frame_at(const float* axes) {
-  return {true, true, {axes[0], axes[1], axes[2]}, {axes[3], axes[4], axes[5]}, {axes[6], axes[7], axes[8]}};
-}
+oracle::ShotFrame frame_at(const float* axes) { return oracle::given_frame(axes, axes + 3, axes + 6); }
 
 }  // namespace
 

@@ -41,21 +41,19 @@ void write_scsh_with_other_sides(const CaseCopy& copy, int moved_axis) {
     const auto neighbors = oracle::neighbors(
         edge.points, {edge.points[3 * key], edge.points[3 * key + 1], edge.points[3 * key + 2]}, radius * radius);
     const std::vector<double> votes =
-        oracle::votes(
-            neighbors, edge.rgb, {edge.rgb[3 * key], edge.rgb[3 * key + 1], edge.rgb[3 * key + 2]},
-            {true, true, {axes[0], axes[1], axes[2]}, {axes[3], axes[4], axes[5]}, {axes[6], axes[7], axes[8]}}, radius,
-            {oracle::Voting::published, {{2, 2, 8}, {1, 1, 8, 10}}},
-            [&](int axis, double raw) {
-              const double border = std::round(2.0 * raw) / 2.0;
-              if (axis != moved_axis || std::fabs(raw - border) > 1e-6) return raw;
-              const bool is_middle = border > std::floor(border);  // and belongs to what lies below it
-              return border + ((is_middle ? raw <= border : raw < border) ? 1e-7 : -1e-7);
-            })
+        oracle::votes(neighbors, edge.rgb, {edge.rgb[3 * key], edge.rgb[3 * key + 1], edge.rgb[3 * key + 2]},
+                      oracle::given_frame(axes, axes + 3, axes + 6), radius,
+                      {oracle::Voting::published, {{2, 2, 8}, {1, 1, 8, 10}}},
+                      [&](int axis, double raw) {
+                        const double border = std::round(2.0 * raw) / 2.0;
+                        if (axis != moved_axis || std::fabs(raw - border) > 1e-6) return raw;
+                        const bool is_middle = border > std::floor(border);  // and belongs to what lies below it
+                        return border + ((is_middle ? raw <= border : raw < border) ? 1e-7 : -1e-7);
+                      })
             .values;
-    double squares = 0.0;
-    for (const double value : votes) squares += value * value;
-    if (squares == 0.0) continue;
-    for (std::size_t i = 0; i < size; ++i) rows[size * row + i] = static_cast<float>(votes[i] / std::sqrt(squares));
+    const double norm = std::sqrt(oracle::squared_norm(votes));
+    if (norm == 0.0) continue;
+    for (std::size_t i = 0; i < size; ++i) rows[size * row + i] = static_cast<float>(votes[i] / norm);
   }
   copy.write_values("scsh_32_8_10", rows);
 }

@@ -8,27 +8,14 @@
 #include <cstddef>
 
 #include "fixtures.hpp"
+#include "synthetic_objects.hpp"
 
 using namespace unit;
 using ss::Status;
 
 namespace {
 
-/// An orthonormal frame, turned at random and rounded to float.
-ss::Frame random_frame(Random& random) {
-  std::array<double, 4> q{};
-  double squares = 0.0;
-  for (double& part : q) {
-    part = static_cast<double>(random.between(-1.0f, 1.0f));
-    squares += part * part;
-  }
-  for (double& part : q) part /= std::sqrt(squares);
-  const auto f = [](double value) { return static_cast<float>(value); };
-  const auto [w, x, y, z] = q;
-  return {{f(1 - 2 * (y * y + z * z)), f(2 * (x * y - z * w)), f(2 * (x * z + y * w))},
-          {f(2 * (x * y + z * w)), f(1 - 2 * (x * x + z * z)), f(2 * (y * z - x * w))},
-          {f(2 * (x * z - y * w)), f(2 * (y * z + x * w)), f(1 - 2 * (x * x + y * y))}};
-}
+constexpr ss::Frame upright{{1.0f, 0.0f, 0.0f}, {0.0f, 1.0f, 0.0f}, {0.0f, 0.0f, 1.0f}};
 
 double along(const float (&axis)[3], const ss::Point& p) {
   return static_cast<double>((axis[0] * p.x + axis[2] * p.z) + axis[1] * p.y);
@@ -92,7 +79,7 @@ void check_lattice(int shells, float radius, Published published, Ours ours) {
     const auto multiple = 1.0 + static_cast<double>(random.below(2 * static_cast<std::size_t>(shells) - 1));
     const double scale = static_cast<double>(radius) * multiple / (2 * shells) / length;
     const ss::Point p{static_cast<float>(scale * x), static_cast<float>(scale * y), static_cast<float>(scale * z)};
-    const ss::Frame frame = random_frame(random);
+    const ss::Frame frame = random_motion(random)(upright);
     others += published(p, frame, radius) != ours(p, frame, radius) ? 1U : 0U;
   }
   CHECK(others <= tries / 1000);  // double has a few bits more than two floats

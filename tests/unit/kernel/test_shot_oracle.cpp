@@ -41,9 +41,7 @@ ss::Frame to_frame(const oracle::ShotFrame& f) {
   return {{f.x[0], f.x[1], f.x[2]}, {f.y[0], f.y[1], f.y[2]}, {f.z[0], f.z[1], f.z[2]}};
 }
 
-oracle::ShotFrame from_frame(const ss::Frame& f) {
-  return {true, true, {f.x[0], f.x[1], f.x[2]}, {f.y[0], f.y[1], f.y[2]}, {f.z[0], f.z[1], f.z[2]}};
-}
+oracle::ShotFrame from_frame(const ss::Frame& f) { return oracle::given_frame(f.x, f.y, f.z); }
 
 oracle::ShotDescription expected_of(const TestCloud& cloud, std::size_t key, const oracle::ShotFrame& frame,
                                     float radius, const oracle::ShotConfig& config) {
