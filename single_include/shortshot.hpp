@@ -5249,7 +5249,7 @@ template <class Cells, class Borders, class Neighbors, class Signals, class Chun
 [[gnu::noinline]] inline void locate(const Neighbors& all, const Stretches& stretches, const Frame& frame,
                                      Radius radius, const Signals& signals_of_place, Chunk& chunk) noexcept {
   constexpr int values = Signals::count > 0 ? Chunk::signals : 0;
-  Collector<const Neighbors> n = all;
+  std::conditional_t<simd::lanes == 1, const Neighbors&, Collector<const Neighbors>> n = all;  // too few registers
   const Signals signals = signals_of_place;
   std::conditional_t<small_code, const Frame&, const FrameLanes> axes(frame);
   std::uint32_t size = 0;
@@ -5368,12 +5368,14 @@ constexpr bool is_shared(int k) noexcept {
 }
 
 /// The integers that votes are added to live in the caller's output array, bit for bit, until they are normalized: no
-/// second array is needed. memcpy is how C++ says that; compilers make one add of it.
+/// second array is needed. memcpy is how C++ says that; compilers make one add of it, if they are told the alignment
+/// where CPUs insist on it.
 inline void add_bits(float* value, std::int32_t weight) noexcept {
+  void* const place = __builtin_assume_aligned(value, alignof(float));
   std::int32_t sum = 0;
-  std::memcpy(&sum, value, sizeof sum);
+  std::memcpy(&sum, place, sizeof sum);
   sum += weight;
-  std::memcpy(value, &sum, sizeof sum);
+  std::memcpy(place, &sum, sizeof sum);
 }
 
 /// One vote of the only lane.
@@ -5650,7 +5652,7 @@ inline namespace SHORTSHOT_CODE {
 inline void to_floats(float* values, int size) noexcept {
   for (int i = 0; i < size; ++i) {
     std::int32_t sum = 0;
-    std::memcpy(&sum, values + i, sizeof sum);
+    std::memcpy(&sum, __builtin_assume_aligned(values + i, alignof(float)), sizeof sum);
     values[i] = static_cast<float>(sum);
   }
 }

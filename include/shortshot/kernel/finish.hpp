@@ -23,7 +23,7 @@ inline namespace SHORTSHOT_CODE {
 inline void to_floats(float* values, int size) noexcept {
   for (int i = 0; i < size; ++i) {
     std::int32_t sum = 0;
-    std::memcpy(&sum, values + i, sizeof sum);
+    std::memcpy(&sum, __builtin_assume_aligned(values + i, alignof(float)), sizeof sum);
     values[i] = static_cast<float>(sum);
   }
 }

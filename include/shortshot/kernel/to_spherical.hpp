@@ -102,7 +102,7 @@ template <class Cells, class Borders, class Neighbors, class Signals, class Chun
 [[gnu::noinline]] inline void locate(const Neighbors& all, const Stretches& stretches, const Frame& frame,
                                      Radius radius, const Signals& signals_of_place, Chunk& chunk) noexcept {
   constexpr int values = Signals::count > 0 ? Chunk::signals : 0;
-  Collector<const Neighbors> n = all;
+  std::conditional_t<simd::lanes == 1, const Neighbors&, Collector<const Neighbors>> n = all;  // too few registers
   const Signals signals = signals_of_place;
   std::conditional_t<small_code, const Frame&, const FrameLanes> axes(frame);
   std::uint32_t size = 0;
