@@ -60,9 +60,9 @@ std::vector<NamedLook> looks_at(const datasets::PairSet& set) {
   look.view.leaf = 0.01f;
   look.view.normal_radius = 0.01f;
   look.view.most_keypoints = 600;
-  for (const float radius : {0.045f, 0.07f}) {
-    look.view.radius = radius;
-    looks.push_back({"R " + millimeters(radius), look, Figure::match_rate, 1, false});
+  for (const float support : {0.045f, 0.07f}) {
+    look.view.radius = support;
+    looks.push_back({"R " + millimeters(support), look, Figure::match_rate, 1, false});
   }
   if (!set.has_color) return looks;
   look.view.radius = 0.045f;

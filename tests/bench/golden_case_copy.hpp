@@ -12,7 +12,7 @@
 
 namespace golden_test {
 
-inline const std::string test_data = SHORTSHOT_TEST_DATA;
+const std::string test_data = SHORTSHOT_TEST_DATA;
 
 class CaseCopy {
  public:

@@ -12,7 +12,7 @@
 namespace unit {
 
 inline constexpr std::size_t synthetic_size = 24;  // values of a descriptor
-inline const std::string synthetic_layout = "synthetic";
+const std::string synthetic_layout = "synthetic";  // not inline: constants of the tests are made of it, after it
 
 /// x -> rotation x + translation; the rows of the rotation are a frame's axes, too.
 struct Motion {

@@ -12,16 +12,6 @@ namespace {
 
 constexpr double pi = 3.14159265358979323846;
 
-struct Points {
-  const std::vector<float>& xyz;
-  std::size_t kdtree_get_point_count() const { return xyz.size() / 3; }
-  float kdtree_get_pt(std::size_t i, std::size_t axis) const { return xyz[3 * i + axis]; }
-  template <class Box>
-  bool kdtree_get_bbox(Box&) const {
-    return false;
-  }
-};
-
 /// nanoflann's own RadiusResultSet; that one's type of pairs depends on nanoflann's version.
 struct Found {
   using DistanceType = float;
@@ -111,6 +101,15 @@ void vote(const NaivePart& part, double u, double theta, double phi, double colo
 }  // namespace
 
 struct Naive::Tree {
+  struct Points {
+    const std::vector<float>& xyz;
+    std::size_t kdtree_get_point_count() const { return xyz.size() / 3; }
+    float kdtree_get_pt(std::size_t i, std::size_t axis) const { return xyz[3 * i + axis]; }
+    template <class Box>
+    bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
   using Distance = nanoflann::L2_Simple_Adaptor<float, Points, float, std::uint32_t>;
 
   Points points;

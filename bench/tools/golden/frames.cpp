@@ -2,14 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "frame_analysis.hpp"
 
 namespace shortshot_bench::golden {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Eigenvalues this close, over the largest, are no grounds for a frame: what a refusal is excused by.
 constexpr double refusable_gap = 1e-5;
@@ -35,7 +32,7 @@ double length(const Vector& v) { return std::sqrt(dot(v, v)); }
 // By atan2, since the arc cosine of a dot product of floats is rough around 0. Infinite if one is no unit vector.
 double angle_between(const Vector& a, const Vector& b) {
   const auto is_unit = [](const Vector& v) { return std::fabs(length(v) - 1.0) < 1e-3; };
-  if (!is_unit(a) || !is_unit(b)) return infinity;
+  if (!is_unit(a) || !is_unit(b)) return HUGE_VAL;
   return std::atan2(length(cross(a, b)), dot(a, b)) * degrees_per_radian;
 }
 
@@ -98,8 +95,8 @@ FrameComparison compare_frames(const shortshot::Neighborhood& n, shortshot::Radi
   if (status != shortshot::Status::ok) {
     const bool none_expected = std::all_of(reference, reference + 9, [](float v) { return std::isnan(v); });
     if (none_expected && is_zero(ours)) return {0.0, true, Cause::none};
-    if (!is_frame || !is_zero(ours)) return {infinity, false, Cause::none};
-    return {infinity, false, cause_of_refusal(analyze_frame(n, radius), status)};
+    if (!is_frame || !is_zero(ours)) return {HUGE_VAL, false, Cause::none};
+    return {HUGE_VAL, false, cause_of_refusal(analyze_frame(n, radius), status)};
   }
   const double x = angle_between(vector_of(ours.x), given_x);
   const double y = angle_between(vector_of(ours.y), given_y);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 #include "unit/oracle.hpp"
@@ -13,10 +12,8 @@ namespace {
 
 // What rounding may do to a position, in cells: angles and distances are good to 1e-6, distances of colors times tens
 // of bins to less.
-constexpr double rounding[border_kinds] = {2e-6, 2e-6, 2e-6, 1e-5};
+constexpr double rounding_in_cells[border_kinds] = {2e-6, 2e-6, 2e-6, 1e-5};
 constexpr double beyond_border = 1e-7;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // What rounding may make of one neighbor in one part: its votes on each side of the borders next to it, values of the
 // descriptor before it is normalized.
@@ -71,7 +68,7 @@ class ExactPart {
                           : is_shot_bin                  ? std::floor(raw) + 0.5
                                                          : std::round(raw);
     std::vector<double> sides{raw};
-    if (std::fabs(raw - border) >= rounding[axis]) return sides;
+    if (std::fabs(raw - border) >= rounding_in_cells[axis]) return sides;
     sides.insert(sides.end(), {border - beyond_border, border + beyond_border});
     const double turn = part_.azimuth;
     if (axis == 2 && border <= 0.0) sides.insert(sides.end(), {turn - beyond_border, turn});
@@ -116,7 +113,7 @@ class Range {
     const std::size_t count = choices.votes.front().size();
     const std::size_t first = least_.size() - count;
     for (std::size_t i = 0; i < count; ++i) {
-      double least = infinity, most = 0.0;
+      double least = HUGE_VAL, most = 0.0;
       for (const std::vector<double>& votes : choices.votes) {
         least = std::min(least, votes[i]);
         most = std::max(most, votes[i]);
@@ -128,7 +125,7 @@ class Range {
 
   // Is there a length by which all values of a normalized row, each off by `tolerance` at most, are in range?
   bool holds(const float* row, double tolerance) const {
-    double shortest = 0.0, longest = infinity;
+    double shortest = 0.0, longest = HUGE_VAL;
     for (std::size_t i = 0; i < least_.size(); ++i) {
       const double value = static_cast<double>(row[i]);
       if (!(value + tolerance >= 0.0)) return false;

@@ -12,6 +12,7 @@
 #include "paper/datasets/view_sets.hpp"
 #include "real_data.hpp"
 
+namespace test_datasets {
 namespace {
 
 using namespace shortshot_bench::datasets;
@@ -118,3 +119,5 @@ TEST_CASE("real W-RGB-D clouds: y is the depth axis, the camera in the origin") 
     for (std::size_t p = 0; p < cloud.size(); p += 100) CHECK(cloud.xyz[3 * p + 1] > 0.5F);
   }
 }
+
+}  // namespace test_datasets

@@ -11,6 +11,7 @@
 #include "paper/datasets/image.hpp"
 #include "paper/datasets/pair_sets.hpp"
 
+namespace test_datasets_frames {
 namespace {
 
 using namespace dataset_test;
@@ -170,3 +171,5 @@ TEST_CASE("what is no camera matrix is refused") {
   CHECK(error_of_matrix("2 0 1\n0 4 inf\n") ==
         "SET/camera-intrinsics.txt:2: expected finite numbers for a camera matrix, found 'inf'");
 }
+
+}  // namespace test_datasets_frames

@@ -8,6 +8,7 @@
 #include "paper/datasets/dataset_files.hpp"
 #include "paper/datasets/pair_sets.hpp"
 
+namespace test_datasets_pairs {
 namespace {
 
 using namespace dataset_test;
@@ -184,3 +185,5 @@ TEST_CASE("other units are made meters: of clouds and of motions") {
   CHECK(pair.truth == set.truths[0]);
   CHECK(set.load_cloud(set.targets[0]).xyz[0] == 0.003F);
 }
+
+}  // namespace test_datasets_pairs

@@ -8,6 +8,7 @@
 #include "dataset_samples.hpp"
 #include "paper/datasets/view_sets.hpp"
 
+namespace test_datasets_views {
 namespace {
 
 using namespace dataset_test;
@@ -154,3 +155,5 @@ TEST_CASE("a folder without labeled views has no set") {
   folder.add("classes.csv", "broken");  // of the scanned meshes, say: none of this reader's business
   CHECK(open_view_sets(folder.path()).empty());
 }
+
+}  // namespace test_datasets_views

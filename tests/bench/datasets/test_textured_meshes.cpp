@@ -10,6 +10,7 @@
 #include "paper/datasets/mesh_ray_caster.hpp"
 #include "paper/datasets/virtual_views.hpp"
 
+namespace test_textured_meshes {
 namespace {
 
 using namespace shortshot_bench::datasets;
@@ -104,3 +105,5 @@ TEST_CASE("faces of two textures are refused") {
   CHECK(dataset_test::error_in(folder, [&] { open_virtual_views(folder.path()); }) ==
         "SET/one/textured.obj: the faces have more than one texture");
 }
+
+}  // namespace test_textured_meshes

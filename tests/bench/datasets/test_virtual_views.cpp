@@ -15,6 +15,7 @@
 #include "paper/datasets/virtual_views.hpp"
 #include "real_data.hpp"
 
+namespace test_virtual_views {
 namespace {
 
 using namespace shortshot_bench;
@@ -290,3 +291,5 @@ TEST_CASE("the scans of the YCB objects are seen from all sides") {
     CHECK(*std::max_element(cloud.rgb.begin(), cloud.rgb.end()) > 40);  // not black, as it would be beside the texture
   }
 }
+
+}  // namespace test_virtual_views

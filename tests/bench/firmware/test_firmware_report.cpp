@@ -13,6 +13,7 @@
 #include "firmware/report/promises.hpp"
 #include "firmware/report/tables.hpp"
 
+namespace test_firmware_report {
 namespace {
 
 using namespace shortshot_bench::firmware;
@@ -162,3 +163,5 @@ TEST_CASE("broken files of promises are refused") {
   CHECK(plain.goal == 3.0);
   CHECK(parse_budgets("[{\"promise\": \"x\", \"figure\": \"y\", \"at_most\": 3, \"goal\": 2}]").at(0).goal == 2.0);
 }
+
+}  // namespace test_firmware_report

@@ -16,6 +16,7 @@
 #include "paper/campaign/campaign.hpp"
 #include "paper/campaign/progress.hpp"
 
+namespace test_campaign_journal {
 namespace {
 
 using namespace shortshot_bench;
@@ -293,3 +294,5 @@ TEST_CASE("progress says what is done, how long it took and how long the rest wi
   std::fclose(file);
   CHECK(read_bytes(directory.file("progress")) == "1/1 done, 0:00:00 elapsed, about 0:00:00 left: square 1\n");
 }
+
+}  // namespace test_campaign_journal

@@ -13,6 +13,7 @@
 #include "paper/campaign/plot.hpp"
 #include "tools/plot/gnuplot.hpp"
 
+namespace test_campaign_plots {
 namespace {
 
 using namespace shortshot_bench;
@@ -130,3 +131,5 @@ TEST_CASE("a plot that gnuplot cannot write is an error and leaves nothing") {
   CHECK_THROWS_AS(draw_svg(directory.file("a.svg"), "print 'nothing drawn'\n"), std::runtime_error);
   CHECK(std::filesystem::is_empty(directory.file("")));
 }
+
+}  // namespace test_campaign_plots

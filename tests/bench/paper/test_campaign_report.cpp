@@ -12,6 +12,7 @@
 #include "paper/campaign/report.hpp"
 #include "paper/campaign/table.hpp"
 
+namespace test_campaign_report {
 namespace {
 
 using namespace shortshot_bench;
@@ -122,3 +123,5 @@ TEST_CASE("a report that cannot be written is refused") {
   CHECK_THROWS_WITH_AS(write_report(twice, directory.file("other")), "two tables are named 'precision'",
                        std::invalid_argument);
 }
+
+}  // namespace test_campaign_report

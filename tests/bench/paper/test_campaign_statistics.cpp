@@ -10,6 +10,7 @@
 
 #include "paper/campaign/statistics.hpp"
 
+namespace test_campaign_statistics {
 namespace {
 
 using namespace shortshot_bench::campaign;
@@ -111,3 +112,5 @@ TEST_CASE("no items and items that are no numbers are refused") {
   CHECK_THROWS_AS(bootstrap_ratio({{{1.0, infinity}}}, 1), std::invalid_argument);
   CHECK_THROWS_AS(bootstrap_ratio({{{1.0, -1.0}}}, 1), std::invalid_argument);
 }
+
+}  // namespace test_campaign_statistics

@@ -12,6 +12,7 @@
 #include "paper/view.hpp"
 #include "relief.hpp"
 
+namespace test_paper_kept_frames {
 namespace {
 
 using namespace shortshot_bench::paper;
@@ -86,3 +87,5 @@ TEST_CASE("kept frames: a table of the report compares both") {
   CHECK(rows[1].at("precision, difference") == "0.100 [0.100, 0.100]");
   CHECK(rows[1].at("right matches, difference") == "5.0 [5.0, 5.0]");
 }
+
+}  // namespace test_paper_kept_frames

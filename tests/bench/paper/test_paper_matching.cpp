@@ -10,6 +10,7 @@
 #include "paper/matching_experiment.hpp"
 #include "relief.hpp"
 
+namespace test_paper_matching {
 namespace {
 
 using namespace shortshot_bench;
@@ -113,3 +114,5 @@ TEST_CASE("matching: descriptors that do not exist are named") {
                     "no descriptor \"x\"; there are cshot1344, shot352, scsh336, scsh696, ssh96, ssh32, shapecolor95, "
                     "shapecolor32, roomcolor95, heightshape96, colorrings27");
 }
+
+}  // namespace test_paper_matching

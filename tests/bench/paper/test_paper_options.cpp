@@ -11,6 +11,7 @@
 #include "paper/options.hpp"
 #include "paper/recognition_experiment.hpp"
 
+namespace test_paper_options {
 namespace {
 
 using namespace shortshot_bench::paper;
@@ -158,3 +159,5 @@ TEST_CASE("paper: claims hold, do not hold, or are undecided") {
       section_of({Claim{"The claim", "figure", {0.0, -1.0, 0.0}, 0.1, "The reason."}});
   CHECK(section.text.find("The claim: does not hold. Likely reason: The reason.") != std::string::npos);
 }
+
+}  // namespace test_paper_options

@@ -12,6 +12,7 @@
 #include "paper/recognition_experiment.hpp"
 #include "relief.hpp"
 
+namespace test_paper_recognition {
 namespace {
 
 using namespace shortshot_bench;
@@ -144,3 +145,5 @@ TEST_CASE("ablation: a report with sizes, a figure 5 and claims") {
   const std::string svg((std::istreambuf_iterator<char>(plot)), std::istreambuf_iterator<char>());
   CHECK(svg.find("n_c = 24") != std::string::npos);
 }
+
+}  // namespace test_paper_recognition

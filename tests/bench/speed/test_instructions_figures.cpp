@@ -11,6 +11,7 @@
 
 #include "speed/instructions/figures.hpp"
 
+namespace test_instructions_figures {
 namespace {
 
 using namespace shortshot_bench;
@@ -113,3 +114,5 @@ TEST_CASE("the record of the project has search, frame, normals and six kernels 
   REQUIRE(record.figures.size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(record.figures[i].name == expected[i].name);
 }
+
+}  // namespace test_instructions_figures

@@ -16,6 +16,7 @@
 #include "speed/stages/stages.hpp"
 #include "tools/scene/tabletop.hpp"
 
+namespace test_micro_stages {
 namespace {
 
 using namespace shortshot_bench;
@@ -215,3 +216,5 @@ TEST_CASE("the counter of instructions counts, or says why not") {
   for (int i = 0; i < 10000; ++i) work = work + i;
   CHECK(counter.instructions() - before > 10000);
 }
+
+}  // namespace test_micro_stages

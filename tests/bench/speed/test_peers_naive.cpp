@@ -14,6 +14,7 @@
 #include "tools/io/view_of_cloud.hpp"
 #include "tools/scene/tabletop.hpp"
 
+namespace test_peers_naive {
 namespace {
 
 using namespace shortshot_bench;
@@ -84,3 +85,5 @@ TEST_CASE("peers: the naive transcription describes as the library and the oracl
   compare<ss::Ssh32>(task, {{2, 2, 8}}, OracleDescriptors::Kind::ssh32);
   compare<ss::Scsh336>(task, {{3, 4, 8}, {2, 2, 4, 15}}, OracleDescriptors::Kind::scsh336);
 }
+
+}  // namespace test_peers_naive

@@ -15,6 +15,7 @@
 #include "speed/peers/task.hpp"
 #include "tools/scene/tabletop.hpp"
 
+namespace test_peers_report {
 namespace {
 
 using namespace shortshot_bench;
@@ -150,3 +151,5 @@ TEST_CASE("peers: a goal is judged by its worst cloud, and one that was not meas
   CHECK(json[0]["measured"]["a.pcd"].get<double>() == doctest::Approx(26.0));
   CHECK_FALSE(json[1].contains("met"));
 }
+
+}  // namespace test_peers_report

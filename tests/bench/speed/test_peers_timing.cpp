@@ -8,6 +8,7 @@
 #include "speed/peers/measure.hpp"
 #include "speed/peers/timing.hpp"
 
+namespace test_peers_timing {
 namespace {
 
 using namespace shortshot_bench;
@@ -81,3 +82,5 @@ TEST_CASE("peers: every step runs once per round after the warm-up, suites in tu
   CHECK(result.taken == 9);
   CHECK(result.kept <= result.taken);
 }
+
+}  // namespace test_peers_timing

@@ -11,6 +11,7 @@
 #include "results/writer/project.hpp"
 #include "results_fixture.hpp"
 
+namespace test_results_writer {
 namespace {
 
 using namespace shortshot_bench::results;
@@ -192,3 +193,5 @@ TEST_CASE("this machine is written down and read back") {
   CHECK(read.compiler == here.compiler);
   CHECK(read.flags == here.flags);
 }
+
+}  // namespace test_results_writer

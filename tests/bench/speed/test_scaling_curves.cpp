@@ -16,6 +16,7 @@
 #include "speed/scaling/plots.hpp"
 #include "speed/scaling/stages.hpp"
 
+namespace test_scaling_curves {
 namespace {
 
 using namespace shortshot_bench;
@@ -154,3 +155,5 @@ TEST_CASE("a plot's data: bases by range, one block for each series, no zeros") 
         "$cost << END\n\"build\"\n10000 0.5\n1e+07 512\n\n\n\"kernel\"\n10000 2\n1e+07 4\n\n\nEND\n"
         "$memory << END\n\"build\"\n10000 1\n1e+07 3\n\n\nEND\n");
 }
+
+}  // namespace test_scaling_curves

@@ -14,6 +14,7 @@
 #include "shortshot/shortshot.hpp"
 #include "tools/golden/case.hpp"
 
+namespace test_bun0_facts {
 namespace {
 
 namespace ss = shortshot;
@@ -105,3 +106,5 @@ TEST_CASE("bun0: the numbers that PCL computes in the setting of its own tests, 
   check_facts<ss::PclShot352>(cloud, bun0::pcl_setting, bun0::pcl_shot352);
   check_facts<ss::PclCshot1344>(cloud, bun0::pcl_setting, bun0::pcl_cshot1344);
 }
+
+}  // namespace test_bun0_facts

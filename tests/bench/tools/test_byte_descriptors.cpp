@@ -10,6 +10,7 @@
 
 #include "tools/scene/tabletop.hpp"
 
+namespace test_byte_descriptors {
 namespace {
 
 template <class D>
@@ -94,3 +95,5 @@ TEST_CASE("byte descriptors: nearest neighbors in another view of the generated 
   check_neighbors<shortshot::Ssh32>(0.92, 0.0015, 1.11);
   check_neighbors<shortshot::Scsh336>(0.94, 0.0015, 1.11);
 }
+
+}  // namespace test_byte_descriptors

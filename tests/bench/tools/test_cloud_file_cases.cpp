@@ -11,6 +11,8 @@
 #include "tools/demo/run.hpp"
 #include "tools/io/repeated_points.hpp"
 
+namespace test_cloud_file_cases {
+
 using namespace shortshot_bench;
 using cloud_file_test::note_of;
 using Strings = std::vector<std::string>;
@@ -133,3 +135,5 @@ TEST_CASE("cloud cases: a range grid") {
   CHECK(cloud.height == 20);
   CHECK(cloud.notes == Strings{"organized by its range grid, 20 x 20"});
 }
+
+}  // namespace test_cloud_file_cases

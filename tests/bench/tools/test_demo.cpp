@@ -13,6 +13,7 @@
 #include "tools/io/view_of_cloud.hpp"
 #include "tools/scene/tabletop.hpp"
 
+namespace test_demo {
 namespace {
 
 using namespace shortshot_bench;
@@ -185,3 +186,5 @@ TEST_CASE("a cloud that cannot be described is refused in the library's words, w
   CHECK_THROWS_AS(run_demo(scene, options), std::runtime_error);
   CHECK_THROWS_WITH(run_demo(RgbdCloud{}, options), "the cloud has no valid point");
 }
+
+}  // namespace test_demo

@@ -14,6 +14,7 @@
 #include "tools/io/view_of_cloud.hpp"
 #include "tools/scene/tabletop.hpp"
 
+namespace test_demo_diagnosis {
 namespace {
 
 using namespace shortshot_bench;
@@ -121,3 +122,5 @@ TEST_CASE("diagnosis: normals of another length, and key points off the surface"
   CHECK(says(advice[0], "not of length 1"));
   CHECK(says(advice[1], "3 key points"));
 }
+
+}  // namespace test_demo_diagnosis

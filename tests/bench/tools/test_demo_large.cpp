@@ -18,6 +18,8 @@
 #include "tools/io/view_of_cloud.hpp"
 #include "tools/scene/tabletop.hpp"
 
+namespace test_demo_large {
+
 using namespace shortshot_bench;
 
 TEST_CASE("a slow stage says what it is, a fast one nothing") {
@@ -68,3 +70,5 @@ TEST_CASE("a sampled search asks brute force for its share, and finds what both 
   demo.search = "grid";
   CHECK(run_demo(scene, demo).values == of_brute);
 }
+
+}  // namespace test_demo_large

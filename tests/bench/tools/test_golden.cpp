@@ -19,6 +19,7 @@
 #include "tools/golden/frames.hpp"
 #include "tools/golden/tool.hpp"
 
+namespace test_golden {
 namespace {
 
 using namespace shortshot_bench::golden;
@@ -227,3 +228,5 @@ TEST_CASE("golden: a bad folder hides no other, arrays may be missing, nothing t
   CHECK(run_tool({partial.path()}).code == bad_input);
   CHECK(run_tool({test_data + "/README.md"}).code == bad_input);
 }
+
+}  // namespace test_golden

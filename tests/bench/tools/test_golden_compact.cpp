@@ -9,26 +9,20 @@
 #include <vector>
 
 #include "golden_case_copy.hpp"
+#include "golden_outcome.hpp"
 #include "tools/golden/case.hpp"
 #include "tools/golden/compare.hpp"
 #include "tools/golden/known_arrays.hpp"
 #include "tools/golden/tool.hpp"
 
+namespace test_golden_compact {
 namespace {
 
 using namespace shortshot_bench::golden;
+using golden_test::broken_arrays;
 using golden_test::CaseCopy;
+using golden_test::Names;
 using golden_test::test_data;
-
-std::vector<std::string> broken_arrays(const CaseCopy& copy) {
-  std::vector<std::string> names;
-  for (const Result& result : compare(read_case(copy.path())).results) {
-    if (result.broken) names.push_back(result.array);
-  }
-  return names;
-}
-
-using Names = std::vector<std::string>;
 
 }  // namespace
 
@@ -82,3 +76,5 @@ TEST_CASE("golden: a nibble may be one step off where its value is on the border
     CHECK(broken_arrays(copy) == Names{"room_color95", "room_color95_nibbles"});
   }
 }
+
+}  // namespace test_golden_compact

@@ -10,6 +10,7 @@
 #include "golden_outcome.hpp"
 #include "unit/oracle.hpp"
 
+namespace test_golden_rows {
 namespace {
 
 using namespace shortshot_bench::golden;
@@ -97,3 +98,5 @@ TEST_CASE("golden: a case with PCL's frames is judged more strictly") {
   CHECK(broken_arrays(copy) ==
         Names{"lrf_pcl", "bshot", "ssh32"});  // most frames of `edge` are explained, which is too many
 }
+
+}  // namespace test_golden_rows

@@ -16,6 +16,7 @@
 #include "tools/make_golden/rows.hpp"
 #include "tools/make_golden/write_case.hpp"
 
+namespace test_make_golden {
 namespace {
 
 using namespace shortshot_bench::make_golden;
@@ -75,3 +76,5 @@ TEST_CASE("make_golden: frames and rows are the oracle's, as near as libraries' 
     }
   }
 }
+
+}  // namespace test_make_golden

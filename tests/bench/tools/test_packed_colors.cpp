@@ -10,6 +10,7 @@
 
 #include "tools/scene/tabletop.hpp"
 
+namespace test_packed_colors {
 namespace {
 
 struct Difference {
@@ -62,3 +63,5 @@ TEST_CASE("packed colors: descriptors of the generated scene differ by no more t
   check_difference<shortshot::Scsh336>(0.001, 0.016);
   check_difference<shortshot::Scsh696>(0.003, 0.027);
 }
+
+}  // namespace test_packed_colors

@@ -11,6 +11,7 @@
 
 #include "tools/scene/tabletop.hpp"
 
+namespace test_tabletop {
 namespace {
 
 using shortshot_bench::make_tabletop;
@@ -199,3 +200,5 @@ TEST_CASE("tabletop: degenerate sizes are served") {
   options.height = 1;
   CHECK(make_tabletop(options).xyz.size() == 3);
 }
+
+}  // namespace test_tabletop

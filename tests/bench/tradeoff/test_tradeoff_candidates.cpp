@@ -14,6 +14,7 @@
 #include "tradeoff/paint.hpp"
 #include "tradeoff/pairs.hpp"
 
+namespace test_tradeoff_candidates {
 namespace {
 
 using namespace shortshot_bench;
@@ -180,3 +181,5 @@ TEST_CASE("many pairs of few clouds: as pair by pair, with a reciprocal match in
 }
 
 }  // namespace
+
+}  // namespace test_tradeoff_candidates

@@ -11,6 +11,7 @@
 #include "tradeoff/map.hpp"
 #include "tradeoff/options.hpp"
 
+namespace test_tradeoff_map {
 namespace {
 
 using namespace shortshot_bench;
@@ -151,3 +152,5 @@ TEST_CASE("options") {
 }
 
 }  // namespace
+
+}  // namespace test_tradeoff_map

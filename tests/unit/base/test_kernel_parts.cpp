@@ -6,6 +6,8 @@
 
 #include "fixtures.hpp"
 
+namespace test_kernel_parts {
+
 using namespace unit;
 namespace detail = ss::detail;
 
@@ -71,3 +73,5 @@ TEST_CASE("kernel parts: tied votes of neighbors at one distance, with one index
   ss::Frame frame{};
   CHECK(ss::estimate_frame(n, 1.0f, frame) == ss::Status::ok);
 }
+
+}  // namespace test_kernel_parts

@@ -7,6 +7,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_simd {
 namespace {
 
 using namespace unit;
@@ -99,3 +100,5 @@ TEST_CASE("simd: numbers differ, zeros do not, and NaN differs from itself") {
   CHECK(!differ(tiny, tiny));
   CHECK(differ(not_a_number, not_a_number));
 }
+
+}  // namespace test_simd

@@ -7,6 +7,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_simd_sums {
 namespace {
 
 using namespace unit;
@@ -120,3 +121,5 @@ TEST_CASE("simd sums: bits that differ, up to all of 62 half bytes") {
   for (auto& code : opposite.codes.back()) code = 0;
   CHECK(opposite.widened() == std::vector<std::uint32_t>(simd::HalfBytes::rows, 248));
 }
+
+}  // namespace test_simd_sums

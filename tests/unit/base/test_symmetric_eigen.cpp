@@ -10,6 +10,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_symmetric_eigen {
 namespace {
 
 using namespace unit;
@@ -227,3 +228,5 @@ TEST_CASE("symmetric eigen: huge and tiny matrices give finite unit vectors") {
   check_huge_and_tiny<3>();
   check_huge_and_tiny<4>();
 }
+
+}  // namespace test_symmetric_eigen

@@ -66,6 +66,7 @@ void* operator new(std::size_t size) {
 [[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
+namespace test_allocation {
 namespace {
 
 using namespace unit;
@@ -259,3 +260,5 @@ TEST_CASE("allocation: whichever fails in estimate_normals(), store() and a grid
                            },
                            check_grid);
 }
+
+}  // namespace test_allocation

@@ -10,6 +10,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_crowded_normals {
 namespace {
 
 using namespace unit;
@@ -143,3 +144,5 @@ TEST_CASE("two outliers at the ends of float's range leave the grid its cells") 
     }
   }
 }
+
+}  // namespace test_crowded_normals

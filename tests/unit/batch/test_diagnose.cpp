@@ -7,6 +7,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_diagnose {
 namespace {
 
 using namespace unit;
@@ -144,3 +145,5 @@ TEST_CASE("diagnose: a radius as large as a crowded cloud is looked at in few pl
   CHECK(d.neighbors == 160000.0f);
   CHECK(d.sampled < 70);
 }
+
+}  // namespace test_diagnose

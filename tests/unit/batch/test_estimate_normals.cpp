@@ -14,6 +14,7 @@
 #include "searches.hpp"
 #include "thread_pool.hpp"
 
+namespace test_estimate_normals {
 namespace {
 
 using namespace unit;
@@ -229,3 +230,5 @@ TEST_CASE("estimate_normals: coordinates at the ends of float's range do no harm
   const Normals normals = estimated(cloud.view(), ss::BruteSearch{cloud.view()}, 5.0f);
   for (const ss::SurfaceNormal& n : normals) CHECK(std::isnan(n.x));  // two lines
 }
+
+}  // namespace test_estimate_normals

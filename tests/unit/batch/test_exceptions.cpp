@@ -12,6 +12,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_exceptions {
 namespace {
 
 using namespace unit;
@@ -223,3 +224,5 @@ TEST_CASE("moved from: a search by nanoflann cannot be moved") {
   CHECK_FALSE(std::is_move_constructible<ss::NanoflannSearch>::value);
   CHECK_FALSE(std::is_move_assignable<ss::NanoflannSearch>::value);
 }
+
+}  // namespace test_exceptions

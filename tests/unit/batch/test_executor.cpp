@@ -9,6 +9,7 @@
 #include "fixtures.hpp"
 #include "thread_pool.hpp"
 
+namespace test_executor {
 namespace {
 
 using namespace unit;
@@ -110,3 +111,5 @@ TEST_CASE("executor: key points off the cloud are taken, too") {
   REQUIRE(ss::extract(scene.cloud.view(), scene.grid, places, radius, features, pool) == Status::ok);
   for (std::size_t i = 0; i < features.values.size(); ++i) REQUIRE(features.values[i] == scene.expected.values[i]);
 }
+
+}  // namespace test_executor

@@ -7,6 +7,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_extract {
 namespace {
 
 using namespace unit;
@@ -179,3 +180,5 @@ TEST_CASE("extract: more threads than key points, and zero threads, are fine") {
   CHECK(same_bits(one.values, many.values));
   CHECK(same_bits(one.values, none.values));
 }
+
+}  // namespace test_extract

@@ -10,6 +10,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_keep_best_frames {
 namespace {
 
 using namespace unit;
@@ -141,3 +142,5 @@ TEST_CASE("keep_best_frames: what was left out is matched with nothing") {
     CHECK(features.status[pair.source] == Status::ok);
   }
 }
+
+}  // namespace test_keep_best_frames

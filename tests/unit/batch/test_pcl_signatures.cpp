@@ -9,6 +9,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_pcl_signatures {
 namespace {
 
 using namespace unit;
@@ -76,3 +77,5 @@ TEST_CASE("PCL signatures: a key point without descriptor is not a number, and t
   CHECK(rows.width == 0);
   CHECK(rows.is_dense);
 }
+
+}  // namespace test_pcl_signatures

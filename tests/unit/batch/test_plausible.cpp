@@ -8,6 +8,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_plausible {
 namespace {
 
 using namespace unit;
@@ -125,3 +126,5 @@ TEST_CASE("extract: key points, frames and counts of the output itself are read 
   REQUIRE(ss::extract(cloud.view(), search, features.neighbors, radius, features) == Status::ok);
   CHECK(same_bits(features.values, expected.values));
 }
+
+}  // namespace test_plausible

@@ -12,6 +12,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_sample {
 namespace {
 
 using namespace unit;
@@ -175,3 +176,5 @@ TEST_CASE("sample: centroids of bad input, without color, and beyond all voxel n
   CHECK(found[0].position.z == 3.0f);
   CHECK((found[0].color.r == 0 && found[0].color.g == 0 && found[0].color.b == 0));
 }
+
+}  // namespace test_sample

@@ -13,6 +13,7 @@
 #include "fixtures.hpp"
 #include "synthetic_objects.hpp"
 
+namespace test_threads {
 namespace {
 
 using namespace unit;
@@ -126,3 +127,5 @@ TEST_CASE("threads: one recognizer and one database answer several at the same t
   CHECK(same_bits(first, second));
   CHECK(fourth.size() == object.size());
 }
+
+}  // namespace test_threads

@@ -29,8 +29,8 @@ struct CloudMessage {
 
 enum : std::uint8_t { int8 = 1, uint8, int16, uint16, int32, uint32, float32, float64 };
 
-inline const std::vector<CloudMessage::Field> floats_xyz{
-    {"x", 0, float32, 1}, {"y", 4, float32, 1}, {"z", 8, float32, 1}};
+// Not inline: messages that are constants are made of it, after it.
+const std::vector<CloudMessage::Field> floats_xyz{{"x", 0, float32, 1}, {"y", 4, float32, 1}, {"z", 8, float32, 1}};
 
 inline std::vector<CloudMessage::Field> floats_xyz_and(const std::vector<CloudMessage::Field>& more) {
   std::vector<CloudMessage::Field> fields = floats_xyz;

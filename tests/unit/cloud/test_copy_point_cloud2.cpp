@@ -11,6 +11,7 @@
 #include "fixtures.hpp"
 #include "point_cloud2_message.hpp"
 
+namespace test_copy_point_cloud2 {
 namespace {
 
 using namespace unit;
@@ -282,3 +283,5 @@ TEST_CASE("PointCloud2 of anybody: whatever its numbers, nothing is read outside
     REQUIRE(copy.xyz.size() == 3 * view.size);
   }
 }
+
+}  // namespace test_copy_point_cloud2

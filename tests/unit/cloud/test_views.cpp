@@ -11,6 +11,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_views {
 namespace {
 
 using namespace unit;
@@ -274,3 +275,5 @@ TEST_CASE("views: organized() only names another width and height") {
   CHECK(view.height == 20);
   check_reads_as_sample(view);
 }
+
+}  // namespace test_views

@@ -9,6 +9,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_views_eigen {
 namespace {
 
 using namespace unit;
@@ -143,3 +144,5 @@ TEST_CASE("eigen views: a matrix that dies at the end of the statement cannot be
   CHECK_FALSE(CanView<ColumnPoints&, ColumnColors&, ColumnPoints>::value);
   CHECK_FALSE(CanView<ColumnPoints, ColumnColors>::value);
 }
+
+}  // namespace test_views_eigen

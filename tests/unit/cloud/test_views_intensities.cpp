@@ -8,6 +8,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_views_intensities {
 namespace {
 
 using namespace unit;
@@ -186,3 +187,5 @@ TEST_CASE("intensities: members of another type are none, and so are those at a 
   CHECK_FALSE(ss::has_intensities(ss::view_of(nowhere, 5)));
   CHECK(ss::validate(ss::view_of(nowhere, 5)) == Status::bad_view);
 }
+
+}  // namespace test_views_intensities

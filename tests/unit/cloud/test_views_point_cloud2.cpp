@@ -9,6 +9,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_views_point_cloud2 {
 namespace {
 
 using namespace unit;
@@ -284,3 +285,5 @@ TEST_CASE("PointCloud2: no points are an empty cloud") {
   m.height = 0;
   CHECK(view_of(m) == Status::empty_cloud);
 }
+
+}  // namespace test_views_point_cloud2

@@ -9,6 +9,7 @@
 #include "fixtures.hpp"
 #include "oracle.hpp"
 
+namespace test_color {
 namespace {
 
 using namespace unit;
@@ -136,3 +137,5 @@ TEST_CASE("color: a cloud's colors converted at once are those converted one by 
     CHECK(lab[i].b == one.b);
   }
 }
+
+}  // namespace test_color

@@ -6,6 +6,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_srgb {
 namespace {
 
 using namespace unit;
@@ -49,3 +50,5 @@ TEST_CASE("srgb: without the table the gamma is undone to the same bits") {
   }
   CHECK(powers == 245);
 }
+
+}  // namespace test_srgb

@@ -10,6 +10,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_stored_colors {
 namespace {
 
 using namespace unit;
@@ -152,3 +153,5 @@ TEST_CASE("stored colors: converting into an array needs a cloud with colors") {
   CHECK(ss::convert_colors<ss::PclLab>(ss::view_xyz(cloud.xyz.data(), 10), packed.data()) == Status::missing_colors);
   CHECK(ss::convert_colors<ss::PclLab>(ss::CloudView{}, packed.data()) == Status::empty_cloud);
 }
+
+}  // namespace test_stored_colors

@@ -8,6 +8,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_descriptor_types {
 namespace {
 
 namespace ss = shortshot;
@@ -114,3 +115,5 @@ TEST_CASE("descriptor types: a value's index says where the point lies, bin, she
     CHECK((out[static_cast<std::size_t>(i)] > 0.0f) == hit);
   }
 }
+
+}  // namespace test_descriptor_types

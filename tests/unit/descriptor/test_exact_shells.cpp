@@ -10,6 +10,8 @@
 #include "fixtures.hpp"
 #include "synthetic_objects.hpp"
 
+namespace test_exact_shells {
+
 using namespace unit;
 using ss::Status;
 
@@ -132,3 +134,5 @@ TEST_CASE("exact shells: a frame that is not orthonormal moves no neighbor from 
   const std::array<bool, 3> inner{true, true, false};
   CHECK(votes_of<OneGrid<3>>({0.25f, 0.0f, 0.0f}, stretched, 0.5f) == inner);
 }
+
+}  // namespace test_exact_shells

@@ -7,6 +7,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_layout {
 namespace {
 
 using namespace unit;
@@ -114,3 +115,5 @@ TEST_CASE("layout: the parts of compact descriptors lie where compact.hpp says")
   CHECK(ss::ColorExcessPart<ss::SphericalGrid<2, 1, 8>, 100>::index(1, 0, 5, 4) == 4 + 6 * (1 + 2 * 5));
   CHECK(ss::ColorRingsPart<3, ss::LabAxis::a, 6>::index(2, 0, 0, 4) == 4 + 6 * 2);
 }
+
+}  // namespace test_layout

@@ -9,6 +9,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_voting {
 namespace {
 
 using namespace unit;
@@ -216,3 +217,5 @@ TEST_CASE("voting: the very middle of a cell has the lower neighbor for a partne
   check_rule(ss::PublishedVoting{});
   check_rule(ss::MultilinearVoting{});
 }
+
+}  // namespace test_voting

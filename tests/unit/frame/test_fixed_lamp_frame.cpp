@@ -13,6 +13,7 @@
 #include "oracle.hpp"
 #include "synthetic_objects.hpp"
 
+namespace test_fixed_lamp_frame {
 namespace {
 
 using namespace unit;
@@ -242,3 +243,5 @@ TEST_CASE("fixed lamp: statuses, and zeros where there is no frame") {
     CHECK(same_bits(estimates[i].frame, ss::Frame{}));
   }
 }
+
+}  // namespace test_fixed_lamp_frame

@@ -10,6 +10,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_frame {
 namespace {
 
 using namespace unit;
@@ -238,3 +239,5 @@ TEST_CASE("frame: check() accepts rotations and refuses everything else") {
     }
   }
 }
+
+}  // namespace test_frame

@@ -14,6 +14,7 @@
 #include "oracle.hpp"
 #include "synthetic_objects.hpp"
 
+namespace test_frame_confidence {
 namespace {
 
 using namespace unit;
@@ -228,3 +229,5 @@ TEST_CASE("frame confidence: on noisy surfaces, the surer half has a fifth of th
     CHECK(5 * wrong_of(300) <= wrong_of(600) - wrong_of(300));
   }
 }
+
+}  // namespace test_frame_confidence

@@ -9,6 +9,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_frame_members {
 namespace {
 
 using namespace unit;
@@ -114,3 +115,5 @@ TEST_CASE("ranking: comes to an end where all neighbors are one") {
   CHECK(ss::detail::count_before(n, place) == 0);
   CHECK(ss::detail::count_before(n, place + 1) == 20);
 }
+
+}  // namespace test_frame_members

@@ -11,6 +11,7 @@
 #include "fixtures.hpp"
 #include "plane_oracle.hpp"
 
+namespace test_normals {
 namespace {
 
 using namespace unit;
@@ -236,3 +237,5 @@ TEST_CASE("normals: bad radii, viewpoints and neighborhoods are refused") {
   n.size = ss::max_neighbors + 1;  // refused before anything is read
   CHECK(status(0.1f, {}) == Status::too_many_neighbors);
 }
+
+}  // namespace test_normals

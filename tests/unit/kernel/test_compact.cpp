@@ -11,6 +11,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_compact {
 namespace {
 
 using namespace unit;
@@ -182,3 +183,5 @@ TEST_CASE("ingredients: the published descriptors take roots, heights and the me
   const std::vector<float> around = described_at<AroundMean>(cloud.view(), ss::KeyPoint(cloud.at(5), {0, 0, 0}));
   CHECK(same_bits(around, described_at<AroundMean>(cloud.view(), ss::KeyPoint(cloud.at(5), {255, 255, 255}))));
 }
+
+}  // namespace test_compact

@@ -10,6 +10,7 @@
 #include "fixtures.hpp"
 #include "oracle_compact.hpp"
 
+namespace test_compact_oracle {
 namespace {
 
 using namespace unit;
@@ -84,3 +85,5 @@ TEST_CASE("compact: each descriptor is the oracle's") {
   });
   compare<Large>([](const std::vector<Seen>& p) { return joined({heights(p, {8, 9, 20}), means(p, {1, 1, 3}, 1.0)}); });
 }
+
+}  // namespace test_compact_oracle

@@ -9,6 +9,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_describe {
 namespace {
 
 using namespace unit;
@@ -153,3 +154,5 @@ TEST_CASE("describe: points on axes, diagonals and the rim get the cells that th
     CHECK(hit == ss::Part<Grid, ss::Occupancy>::index(c.r, c.e, c.a));
   }
 }
+
+}  // namespace test_describe

@@ -9,6 +9,7 @@
 #include "fixtures.hpp"
 #include "intensities.hpp"
 
+namespace test_intensity {
 namespace {
 
 using namespace unit;
@@ -187,3 +188,5 @@ TEST_CASE("intensity: extract() and describe_at() agree, at points and at centro
   REQUIRE(ss::sample_centroids(lit(cloud, none), 1e3f, keypoints) == Status::ok);
   CHECK_FALSE(bool{keypoints[0].has_intensity});
 }
+
+}  // namespace test_intensity

@@ -11,6 +11,7 @@
 #include "intensities.hpp"
 #include "oracle.hpp"
 
+namespace test_intensity_oracle {
 namespace {
 
 using namespace unit;
@@ -114,3 +115,5 @@ TEST_CASE("intensity: the descriptor is the oracle's, under every voting rule") 
   compare<ss::IntensityShape<Grid<2, 3, 5>, Grid<3, 1, 2>, 7, ss::MultilinearVoting>>(
       {Voting::multilinear, {{2, 3, 5}, {3, 1, 2, 7}}});
 }
+
+}  // namespace test_intensity_oracle

@@ -9,6 +9,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_low_memory {
 namespace {
 
 using namespace unit;
@@ -155,3 +156,5 @@ TEST_CASE("low memory: what does not fit is refused") {
   CHECK(describe<ss::Ssh32>(large, ss::BruteSearch{large.view()}, 5, compact).status == Status::too_many_neighbors);
   CHECK(describe<ss::Ssh32>(large, ss::BruteSearch{large.view()}, 5, compact_wide).status == Status::ok);
 }
+
+}  // namespace test_low_memory

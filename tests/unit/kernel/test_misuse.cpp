@@ -9,6 +9,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_misuse {
 namespace {
 
 using namespace unit;
@@ -154,3 +155,5 @@ TEST_CASE("misuse: a frame that the fixed-point sums cannot resolve is refused, 
 TEST_CASE("misuse: the tests themselves are built so that the bits can be the same everywhere") {
   CHECK(ss::self_check());
 }
+
+}  // namespace test_misuse

@@ -9,6 +9,7 @@
 #include "fixtures.hpp"
 #include "oracle.hpp"
 
+namespace test_oracle {
 namespace {
 
 using namespace unit;
@@ -198,3 +199,5 @@ TEST_CASE("oracle: parts are described one after the other, in the order of thei
   compare<ColorFirst>({Voting::multilinear, {{2, 2, 4, 5}, {3, 1, 8}}});
   static_assert(ss::Descriptor<ss::HardVoting, Color, Shape>::size == 80 + 96, "one after the other");
 }
+
+}  // namespace test_oracle

@@ -13,6 +13,7 @@
 #include "oracle.hpp"
 #include "pinhole.hpp"
 
+namespace test_properties {
 namespace {
 
 using namespace unit;
@@ -225,3 +226,5 @@ TEST_CASE("properties: hard voting counts every neighbor once") {
     CHECK(std::sqrt(squares) == doctest::Approx(static_cast<double>(counted) / sum).epsilon(1e-5));
   }
 }
+
+}  // namespace test_properties

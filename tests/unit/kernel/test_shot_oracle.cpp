@@ -11,6 +11,7 @@
 #include "fixtures.hpp"
 #include "oracle_shot.hpp"
 
+namespace test_shot_oracle {
 namespace {
 
 using namespace unit;
@@ -294,3 +295,5 @@ TEST_CASE("shot oracle: a cloud with white points, under both rules") {
   CHECK(pcl.worst_value <= 1e-6);
   CHECK(plain.excluded + pcl.excluded < 6);
 }
+
+}  // namespace test_shot_oracle

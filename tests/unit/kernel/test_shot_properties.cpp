@@ -12,6 +12,7 @@
 #include "fixtures.hpp"
 #include "oracle_shot.hpp"
 
+namespace test_shot_properties {
 namespace {
 
 using namespace unit;
@@ -271,3 +272,5 @@ TEST_CASE(
     REQUIRE(same_bits(values, describe_in<D>(one.frames[row], cloud, keypoints[row], radius)));
   }
 }
+
+}  // namespace test_shot_properties

@@ -9,6 +9,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_shot_status {
 namespace {
 
 using namespace unit;
@@ -229,3 +230,5 @@ TEST_CASE("shot status: extract() gives every row its status, and zeros where it
   CHECK(features.status == std::vector<Status>(3, Status::missing_normals));
   CHECK(all_zero(features.values));
 }
+
+}  // namespace test_shot_status

@@ -11,8 +11,8 @@
 #include "recognition_statuses.hpp"
 #include "view_statuses.hpp"
 
+namespace test_status {
 namespace {
-
 using namespace unit;
 using ss::Status;
 using D = ss::Scsh336;
@@ -297,3 +297,4 @@ TEST_CASE("status: a search that could not be built says so through whoever asks
   REQUIRE(too_small.build(cloud.view(), radius) == Status::out_of_memory);
   CHECK(describe(too_small) == Status::out_of_memory);
 }
+}  // namespace test_status

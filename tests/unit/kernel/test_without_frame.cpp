@@ -8,6 +8,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_without_frame {
 namespace {
 
 using namespace unit;
@@ -124,3 +125,5 @@ TEST_CASE("without frame: features have none, but for those that the caller give
   CHECK(std::memcmp(framed.frames.data(), frames.data(), frames.size() * sizeof frames[0]) == 0);
   CHECK(ss::train(recognizer, framed, {0.0f, 0.0f, 1.0f}, "thing", "one") == Status::ok);
 }
+
+}  // namespace test_without_frame

@@ -10,6 +10,7 @@
 #include "fixtures.hpp"
 #include "point_pairs.hpp"
 
+namespace test_estimate_pose {
 namespace {
 
 using namespace unit;
@@ -148,3 +149,5 @@ TEST_CASE("pose: options out of their ranges are refused") {
   CHECK(ss::estimate_pose(pairs, {1, 0.01f, 0.0f, 0}, pose, inliers) == Status::ok);
   CHECK(ss::estimate_pose(pairs, {1, 0.01f, 0.999f, 0}, pose, inliers) == Status::ok);
 }
+
+}  // namespace test_estimate_pose

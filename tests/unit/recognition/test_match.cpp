@@ -11,6 +11,7 @@
 #include "descriptor_rows.hpp"
 #include "fixtures.hpp"
 
+namespace test_match {
 namespace {
 
 using namespace unit;
@@ -192,3 +193,5 @@ TEST_CASE("match: rows that do not fit each other, and options out of range, are
     CHECK(matches.empty());
   }
 }
+
+}  // namespace test_match

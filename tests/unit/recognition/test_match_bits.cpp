@@ -12,6 +12,7 @@
 #include "fixtures.hpp"
 #include "thread_pool.hpp"
 
+namespace test_match_bits {
 namespace {
 
 using namespace unit;
@@ -108,3 +109,5 @@ TEST_CASE("match: the number of threads changes no bit") {
   CHECK(same(nearest(source, target, 3, pool), matches));
   CHECK(same(reciprocal(source, target, pool), pairs));
 }
+
+}  // namespace test_match_bits

@@ -13,6 +13,7 @@
 #include "fixtures.hpp"
 #include "thread_pool.hpp"
 
+namespace test_match_formats {
 namespace {
 
 using namespace unit;
@@ -268,3 +269,5 @@ TEST_CASE("match: rows of floats that are no numbers are nobody's second nearest
   REQUIRE(ss::ratio_correspondences({source, 1, 2, nullptr}, {target, 4, 2, nullptr}, 0.5f, pairs) == Status::ok);
   CHECK(same(pairs, {{0, 0, 1.0f}}));
 }
+
+}  // namespace test_match_formats

@@ -10,6 +10,7 @@
 #include "descriptor_rows.hpp"
 #include "fixtures.hpp"
 
+namespace test_packed_rows {
 namespace {
 
 using namespace unit;
@@ -114,3 +115,5 @@ TEST_CASE("match: the distance of two rows of floats is what matching says") {
   }
   CHECK(ss::l2_distance(nullptr, nullptr, 0) == 0.0f);
 }
+
+}  // namespace test_packed_rows

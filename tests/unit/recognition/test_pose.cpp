@@ -9,6 +9,7 @@
 #include "fixtures.hpp"
 #include "point_pairs.hpp"
 
+namespace test_pose {
 namespace {
 
 using namespace unit;
@@ -177,3 +178,5 @@ TEST_CASE("pose: too few pairs, and coordinates that are no numbers, are refused
     }
   }
 }
+
+}  // namespace test_pose

@@ -8,6 +8,7 @@
 
 #include "synthetic_objects.hpp"
 
+namespace test_recognize_stored {
 namespace {
 
 using namespace unit;
@@ -135,3 +136,5 @@ TEST_CASE("recognizer: nibbles find what the floats find that they stand for") {
            mine[i].center.x == theirs[i].center.x));
   }
 }
+
+}  // namespace test_recognize_stored

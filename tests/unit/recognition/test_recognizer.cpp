@@ -10,6 +10,7 @@
 #include "synthetic_objects.hpp"
 #include "thread_pool.hpp"
 
+namespace test_recognizer {
 namespace {
 
 using namespace unit;
@@ -257,3 +258,5 @@ TEST_CASE("recognizer: with what extract() gives") {
   ss::Features<ss::Scsh<ss::SphericalGrid<3, 4, 8>, ss::SphericalGrid<2, 2, 4>, 15, ss::HardVoting>> others;
   CHECK(ss::recognize(recognizer, others, found) == Status::other_descriptor);  // as many values
 }
+
+}  // namespace test_recognizer

@@ -8,6 +8,7 @@
 
 #include "synthetic_objects.hpp"
 
+namespace test_recognizer_input {
 namespace {
 
 using namespace unit;
@@ -172,3 +173,5 @@ TEST_CASE("mean shift: never down, even where coordinates are coarser than the b
     }
   }
 }
+
+}  // namespace test_recognizer_input

@@ -10,6 +10,7 @@
 
 #include "synthetic_objects.hpp"
 
+namespace test_recognizer_model {
 namespace {
 
 using namespace unit;
@@ -247,3 +248,5 @@ TEST_CASE("model: files") {
   CHECK(ss::save(trained(), folder) == Status::no_file);
   CHECK(ss::save(trained(), path + "/in/no/folder") == Status::no_file);
 }
+
+}  // namespace test_recognizer_model

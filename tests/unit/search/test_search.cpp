@@ -9,6 +9,7 @@
 #include "fixtures.hpp"
 #include "searches.hpp"
 
+namespace test_search {
 namespace {
 
 using namespace unit;
@@ -176,3 +177,5 @@ TEST_CASE("search: a full workspace is reported with the exact number of neighbo
   check_overflow(ss::GridSearch(cloud.view(), 0.1f));
   check_overflow(ss::NanoflannSearch(cloud.view()));
 }
+
+}  // namespace test_search

@@ -11,6 +11,7 @@
 #include "fixtures.hpp"
 #include "searches.hpp"
 
+namespace test_search_grid {
 namespace {
 
 using namespace unit;
@@ -216,3 +217,5 @@ TEST_CASE("grid search: nothing is written beyond the capacity, and everything u
     }
   }
 }
+
+}  // namespace test_search_grid

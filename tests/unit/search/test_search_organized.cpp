@@ -9,6 +9,7 @@
 #include "fixtures.hpp"
 #include "pinhole.hpp"
 
+namespace test_search_organized {
 namespace {
 
 using namespace unit;
@@ -197,3 +198,5 @@ TEST_CASE("organized search: a full workspace is reported with the exact number 
   CHECK(search.gather(image.at(1500), 0.1f, n) == Status::too_many_neighbors);
   CHECK(n.found == expected);
 }
+
+}  // namespace test_search_organized

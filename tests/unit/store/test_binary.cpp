@@ -17,6 +17,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_binary {
 namespace {
 
 using namespace unit;
@@ -290,3 +291,5 @@ TEST_CASE("binary: each bit counts as one, and distances are a metric") {
     CHECK(ss::hamming_distance(binary[0], other) == 1);
   }
 }
+
+}  // namespace test_binary

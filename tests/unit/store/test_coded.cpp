@@ -11,6 +11,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_coded {
 namespace {
 
 using namespace unit;
@@ -132,3 +133,5 @@ TEST_CASE("coded: steps of 1/360 cut off no value that compact descriptors can h
   CHECK(1.5 / std::sqrt(3.0) / 1.5 < 255.0 / 360.0);
   CHECK(0.6 / whole < 127.0 / 360.0);
 }
+
+}  // namespace test_coded

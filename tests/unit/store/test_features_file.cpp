@@ -10,6 +10,7 @@
 #include "fixtures.hpp"
 #include "temporary_folder.hpp"
 
+namespace test_features_file {
 namespace {
 
 using namespace unit;
@@ -241,3 +242,5 @@ TEST_CASE("features file: files") {
   CHECK(bytes_of_file(path) == saved(features));
   CHECK(folder.files() == 1);
 }
+
+}  // namespace test_features_file

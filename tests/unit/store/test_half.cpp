@@ -10,6 +10,7 @@
 #include "descriptor_rows.hpp"
 #include "fixtures.hpp"
 
+namespace test_half {
 namespace {
 
 using namespace unit;
@@ -82,3 +83,5 @@ TEST_CASE("half: rows are matched as rows of the floats that they stand for") {
   CHECK(ss::nearest(ss::rows_of(a), ss::HalfRows{nullptr, 2, 32, nullptr}, 1, out) == Status::bad_rows);
   CHECK(ss::nearest(ss::rows_of(a), ss::HalfRows{b[0].values, 2, 31, nullptr}, 1, out) == Status::bad_rows);
 }
+
+}  // namespace test_half

@@ -13,6 +13,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_nibbles {
 namespace {
 
 using namespace unit;
@@ -161,3 +162,5 @@ TEST_CASE("nibbles: rows of them are matched like rows of the values they stand 
   CHECK(ss::nearest(missing, missing, 1, matches) == Status::bad_rows);
   CHECK((ss::validate(from) == Status::ok && ss::validate(missing) == Status::bad_rows));
 }
+
+}  // namespace test_nibbles

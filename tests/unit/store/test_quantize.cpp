@@ -13,6 +13,7 @@
 
 #include "fixtures.hpp"
 
+namespace test_quantize {
 namespace {
 
 using namespace unit;
@@ -184,3 +185,5 @@ TEST_CASE("quantize: step times the root of it is the descriptors' distance, wit
     CHECK(std::abs(found - expected) < 0.01);  // in practice, errors do not add up
   }
 }
+
+}  // namespace test_quantize

@@ -14,6 +14,7 @@
 #include "fixtures.hpp"
 #include "temporary_folder.hpp"
 
+namespace test_replace_file {
 namespace {
 
 using namespace unit;
@@ -133,3 +134,5 @@ TEST_CASE("file: whoever could not read the old file cannot read the new one") {
   CHECK(fs::status(path).permissions() == (fs::perms::owner_read | fs::perms::owner_write));
   CHECK(bytes_of_file(path) == Bytes{2});
 }
+
+}  // namespace test_replace_file

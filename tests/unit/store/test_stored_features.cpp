@@ -10,6 +10,7 @@
 #include "fixtures.hpp"
 #include "temporary_folder.hpp"
 
+namespace test_stored_features {
 namespace {
 
 using namespace unit;
@@ -135,3 +136,5 @@ TEST_CASE("stored features: a whole cloud in one call is what its features are s
   CHECK(ss::describe_cloud(view, options, at_once) == Status::bad_radius);
   CHECK(at_once.size() == 0);
 }
+
+}  // namespace test_stored_features

@@ -10,6 +10,7 @@
 #include "descriptor_rows.hpp"
 #include "fixtures.hpp"
 
+namespace test_sum_bits {
 namespace {
 
 using namespace unit;
@@ -97,3 +98,5 @@ TEST_CASE("sum bits: distances, and rows of them") {
   REQUIRE(ss::nearest(rows, rows, 1, out) == Status::ok);
   CHECK((out[7].row == 7 && out[7].distance == 0.0f));
 }
+
+}  // namespace test_sum_bits

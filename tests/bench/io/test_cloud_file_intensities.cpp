@@ -7,6 +7,8 @@
 #include "shortshot/cloud/read.hpp"
 #include "tools/io/view_of_cloud.hpp"
 
+namespace test_cloud_file_intensities {
+
 using cloud_file_test::Cell;
 using cloud_file_test::cell;
 using cloud_file_test::pcd_body;
@@ -140,3 +142,5 @@ TEST_CASE("cloud intensities: the library's view has those of the cloud, or none
   cloud.intensity.clear();
   CHECK_FALSE(shortshot::has_intensities(shortshot_bench::view_of_cloud(cloud)));
 }
+
+}  // namespace test_cloud_file_intensities

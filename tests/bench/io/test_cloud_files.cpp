@@ -7,6 +7,8 @@
 #include "tools/io/write_descriptor_pcd.hpp"
 #include "tools/io/write_npy.hpp"
 
+namespace test_cloud_files {
+
 using cloud_file_test::cell;
 using cloud_file_test::read_bytes;
 using cloud_file_test::read_from_bytes;
@@ -196,3 +198,5 @@ TEST_CASE("cloud files: a file that cannot be written is an error") {
     CHECK_THROWS_AS(shortshot_bench::write_npy("/dev/full", &value, 1, 1), InputError);
   }
 }
+
+}  // namespace test_cloud_files

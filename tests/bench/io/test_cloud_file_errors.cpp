@@ -3,6 +3,8 @@
 
 #include "cloud_file_samples.hpp"
 
+namespace test_cloud_file_errors {
+
 using cloud_file_test::cell;
 using cloud_file_test::error_of;
 using cloud_file_test::TemporaryDirectory;
@@ -219,3 +221,5 @@ TEST_CASE("cloud file errors: PLY rows and bytes") {
         byte(5) + ": expected 4 rows of element 'vertex' of at least 12 bytes, found only 24 bytes"},
        {{"edge 1", "edge 29"}, byte(30) + ": expected 1 bytes of a list count, found only 0"}});
 }
+
+}  // namespace test_cloud_file_errors

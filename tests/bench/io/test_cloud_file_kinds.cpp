@@ -8,6 +8,8 @@
 #include "note_of.hpp"
 #include "tools/io/repeated_points.hpp"
 
+namespace test_cloud_file_kinds {
+
 using cloud_file_test::cell;
 using cloud_file_test::error_of;
 using cloud_file_test::note_of;
@@ -219,3 +221,5 @@ TEST_CASE("cloud kinds: points in one place") {
         Strings{"50 % of the points are in the very place of another one: duplicates, or too few digits"});
   CHECK(read_from_bytes(header + "nan nan nan\nnan nan nan\n1 2 3\n4 5 6\n").notes == Strings{});
 }
+
+}  // namespace test_cloud_file_kinds

@@ -5,6 +5,8 @@
 
 #include "cloud_file_samples.hpp"
 
+namespace test_cloud_file_mutations {
+
 using cloud_file_test::sample_pcd;
 using cloud_file_test::sample_ply;
 using cloud_file_test::TemporaryDirectory;
@@ -120,3 +122,5 @@ TEST_CASE("cloud files: truncated files") {
     }
   }
 }
+
+}  // namespace test_cloud_file_mutations

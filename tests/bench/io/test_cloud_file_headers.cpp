@@ -6,6 +6,8 @@
 #include "cloud_file_samples.hpp"
 #include "note_of.hpp"
 
+namespace test_cloud_file_headers {
+
 using cloud_file_test::cell;
 using cloud_file_test::error_of;
 using cloud_file_test::note_of;
@@ -120,3 +122,5 @@ TEST_CASE("cloud headers: range grids") {
                       "obj_info num_cols 2\nobj_info num_rows 2\nend_header\n1 2 3\n1 2 4\n1 2 5\n1 2 6\n");
   CHECK(plain.height == 2);
 }
+
+}  // namespace test_cloud_file_headers
