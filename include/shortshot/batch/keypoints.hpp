@@ -7,88 +7,96 @@
 #include <vector>
 
 #include "../base/math.hpp"
-#include "../base/unfused.hpp"
+#include "../base/simd.hpp"
+#include "../base/unroll.hpp"
 #include "../cloud/cloud.hpp"
 #include "../cloud/keypoint.hpp"
+#include "../cloud/point_lanes.hpp"
 #include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../status.hpp"
+#include "voxels.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// A valid point of a cloud in its voxel. Voxel numbers stay floats: whole numbers, exact up to 2^24 voxels from the
-/// origin, as the coordinates are.
-struct VoxelMember {
-  float voxel[3];
-  float place[3];  // in the voxel, from its corner, in voxels
-  float d2;        // to the voxel's center, in voxels
-  std::uint32_t index;
-};
-
-[[nodiscard]] inline bool same_voxel(const VoxelMember& a, const VoxelMember& b) noexcept {
-  return a.voxel[0] == b.voxel[0] && a.voxel[1] == b.voxel[1] && a.voxel[2] == b.voxel[2];
-}
-
-/// All valid points, voxel after voxel, in each the one nearest to its center first.
-[[nodiscard]] inline Status sort_into_voxels(const CloudView& cloud, float leaf, std::vector<VoxelMember>& members) {
+/// Calls f(voxel's number, squared distance to its center, index) for each valid point, in order.
+template <class Function>
+[[nodiscard]] inline Status for_each_in_voxel(const CloudView& cloud, float leaf, Function f) {
   const Status usable = validate(cloud);
   if (usable != Status::ok) return usable;
   if (!math::is_finite(leaf) || !(leaf > 0.0f)) return Status::bad_leaf;
-  members.clear();
-  members.reserve(cloud.size);
-  for_each_valid(cloud, [&](std::size_t i, const Point& p) {
-    VoxelMember member{{}, {}, 0.0f, static_cast<std::uint32_t>(i)};
-    float from_center[3];
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float position = coordinate(p, axis) / leaf;
-      member.voxel[axis] = __builtin_floorf(position);
-      member.place[axis] = math::is_finite(position) ? position - member.voxel[axis] : 0.0f;
-      from_center[axis] = member.place[axis] - 0.5f;
+  bool any_valid = false;
+  for_each_valid_register(cloud, [&](std::size_t first, const PointLanes& points, simd::Mask valid) {
+    any_valid = true;
+    const VoxelLanes voxels = voxels_of(points, leaf);
+    float number[3][simd::lanes];
+    float d2[simd::lanes];
+    float is_valid[simd::lanes];
+    unroll<3>([&](auto axis) { simd::store(number[axis], voxels.number[axis]); });
+    simd::store(d2, voxels.d2);
+    simd::store(is_valid, keep(valid, simd::all(1.0f)));
+    for (std::size_t lane = 0; lane < simd::lanes; ++lane) {
+      if (is_valid[lane] == 0.0f) continue;
+      const float of_lane[3] = {number[0][lane], number[1][lane], number[2][lane]};
+      f(of_lane, d2[lane], static_cast<std::uint32_t>(first + lane));
     }
-    member.d2 = (unfused(from_center[0] * from_center[0]) + unfused(from_center[1] * from_center[1])) +
-                unfused(from_center[2] * from_center[2]);
-    members.push_back(member);
   });
-  if (members.empty()) return Status::empty_cloud;
-  std::sort(members.begin(), members.end(), [](const VoxelMember& a, const VoxelMember& b) {
-    for (std::size_t axis = 3; axis-- > 0;) {
-      if (a.voxel[axis] != b.voxel[axis]) return a.voxel[axis] < b.voxel[axis];
-    }
-    return a.d2 != b.d2 ? a.d2 < b.d2 : a.index < b.index;
-  });
-  return Status::ok;
+  return any_valid ? Status::ok : Status::empty_cloud;
 }
 
-/// The centroid of one voxel's members, with the means of their colors and of their intensities (the finite ones).
-[[nodiscard]] inline KeyPoint centroid_of(const CloudView& cloud, float leaf, const VoxelMember* first,
-                                          const VoxelMember* end) noexcept {
-  const auto count = static_cast<std::uint32_t>(end - first);
+/// What is added up over the points of a voxel.
+struct VoxelSums {
   float place[3] = {};
   std::uint64_t rgb[3] = {};
   float intensities = 0.0f;
-  std::uint32_t echoes = 0;
-  for (const VoxelMember* member = first; member != end; ++member) {
-    for (std::size_t axis = 0; axis < 3; ++axis) place[axis] += member->place[axis];
+  std::uint32_t echoes = 0;  ///< intensities that are numbers
+
+  void add_channels(const CloudView& cloud, std::uint32_t index) noexcept {
     if (has_colors(cloud)) {
-      const Rgb c = color(cloud, member->index);
+      const Rgb c = color(cloud, index);
       rgb[0] += c.r;
       rgb[1] += c.g;
       rgb[2] += c.b;
     }
-    const float echo = has_intensities(cloud) ? intensity(cloud, member->index) : 0.0f;
-    if (!math::is_finite(echo)) continue;
+    const float echo = has_intensities(cloud) ? intensity(cloud, index) : 0.0f;
+    if (!math::is_finite(echo)) return;
     intensities += echo;
     ++echoes;
   }
+
+  /// Points of the cloud in one voxel, named by the lower halves of `members`.
+  void add_all(const CloudView& cloud, float leaf, const std::uint64_t* members, std::size_t count) noexcept {
+    for (std::size_t i = 0; i < count; i += simd::lanes) {
+      const std::size_t size = count - i < simd::lanes ? count - i : simd::lanes;
+      const auto index_at = [&](std::size_t lane) {
+        return static_cast<std::uint32_t>(members[i + (lane < size ? lane : 0)]);
+      };
+      const VoxelLanes voxels = voxels_of(read_lanes(cloud.points, index_at), leaf);
+      unroll<3>([&](auto axis) {
+        float places[simd::lanes];
+        simd::store(places, voxels.place[axis]);
+        for (std::size_t lane = 0; lane < size; ++lane) place[axis] += places[lane];
+      });
+      for (std::size_t lane = 0; lane < size; ++lane) add_channels(cloud, index_at(lane));
+    }
+  }
+};
+
+/// The centroid of a voxel's points, with the means of their colors and of their intensities (the finite ones).
+[[nodiscard]] inline KeyPoint centroid_of(const CloudView& cloud, float leaf, const Voxel& voxel,
+                                          const VoxelSums& sums) noexcept {
+  const std::uint32_t count = voxel.points;
   const auto at = [&](std::size_t axis) {
-    return (first->voxel[axis] + place[axis] / static_cast<float>(count)) * leaf;
+    return (voxel.number[axis] + sums.place[axis] / static_cast<float>(count)) * leaf;
   };
-  const auto mean = [&](std::size_t c) { return static_cast<std::uint8_t>((rgb[c] + count / 2) / count); };
+  const auto mean = [&](std::size_t c) { return static_cast<std::uint8_t>((sums.rgb[c] + count / 2) / count); };
   KeyPoint key(Point{at(0), at(1), at(2)});
+  // Beyond the reach of voxel numbers a point stands for itself.
+  if (!is_finite(key.position)) return keypoint(cloud, voxel.nearest);
   if (has_colors(cloud)) key = KeyPoint(key.position, {mean(0), mean(1), mean(2)});
-  key.has_intensity = has_intensities(cloud) && echoes > 0;
-  if (key.has_intensity) key.intensity = intensities / static_cast<float>(echoes);
+  key.has_intensity = has_intensities(cloud) && sums.echoes > 0;
+  if (key.has_intensity) key.intensity = sums.intensities / static_cast<float>(sums.echoes);
   return key;
 }
 
@@ -98,39 +106,102 @@ struct VoxelMember {
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
-/// One key point per voxel of `leaf` meters that holds a valid point: the point nearest to the voxel's center (the one
-/// with the smaller index if two are as near). Voxels lie on a grid through the origin.
-/// `keypoints` receives indices into the cloud in ascending order. Statuses: empty_cloud (also if no point is valid),
-/// bad_view, bad_leaf. O(n log n); allocates 32 bytes a point; the same result on every machine.
+/// Chooses key points of clouds, one for each voxel of `leaf` meters that holds a valid point; voxels lie on a grid
+/// through the origin. Keep it from frame to frame: what it allocated for one frame it has for the next. One thread at
+/// a time; a pass over the points takes less than starting others would.
+class KeypointSampler {
+ public:
+  /// The point nearest to each voxel's center (the one with the smaller index if two are as near). `keypoints` receives
+  /// indices into the cloud in ascending order. Statuses: empty_cloud (also if no point is valid), bad_view, bad_leaf;
+  /// no key points then. Linear in the points; allocates 40 bytes a voxel and a bit a point, none if it has had as much
+  /// before; the same result on every machine.
+  [[nodiscard]] Status sample_uniform(const CloudView& cloud, float leaf, std::vector<std::uint32_t>& keypoints) {
+    keypoints.clear();
+    table_.clear();
+    const Status status = detail::for_each_in_voxel(
+        cloud, leaf, [this](const float(&number)[3], float d2, std::uint32_t index) { table_.add(number, d2, index); });
+    if (status != Status::ok) return status;
+    chosen_.assign((cloud.size + 63) / 64, 0u);
+    for (const detail::Voxel& voxel : table_.voxels()) chosen_[voxel.nearest / 64] |= bit_of(voxel.nearest);
+    keypoints.reserve(table_.voxels().size());
+    for (std::size_t word = 0; word < chosen_.size(); ++word) {
+      for (std::uint64_t left = chosen_[word]; left != 0; left &= left - 1)
+        keypoints.push_back(static_cast<std::uint32_t>(64 * word) + static_cast<std::uint32_t>(__builtin_ctzll(left)));
+    }
+    return Status::ok;
+  }
+
+  /// The same with the centroid, the mean color and the mean intensity (of what the cloud has) of each voxel's points:
+  /// less noise than any one of them has, which pays most where the key point's color is what color distances refer
+  /// to. Voxels by z, then y, then x. Allocates 20 bytes a point besides.
+  [[nodiscard]] Status sample_centroids(const CloudView& cloud, float leaf, std::vector<KeyPoint>& keypoints) {
+    keypoints.clear();
+    table_.clear();
+    voxel_of_.clear();
+    member_.clear();
+    const Status status =
+        detail::for_each_in_voxel(cloud, leaf, [this](const float(&number)[3], float d2, std::uint32_t index) {
+          voxel_of_.push_back(table_.add(number, d2, index));
+          member_.push_back(std::uint64_t{detail::math::bits_of(d2)} << 32 | index);
+        });
+    if (status != Status::ok) return status;
+    sort_members();
+    const std::vector<detail::Voxel>& voxels = table_.voxels();
+    keypoints.reserve(voxels.size());
+    for (const std::uint32_t v : order_) {
+      detail::VoxelSums sums;
+      sums.add_all(cloud, leaf, sorted_.data() + first_[v], voxels[v].points);
+      keypoints.push_back(detail::centroid_of(cloud, leaf, voxels[v], sums));
+    }
+    return Status::ok;
+  }
+
+ private:
+  [[nodiscard]] static std::uint64_t bit_of(std::uint32_t index) noexcept { return std::uint64_t{1} << index % 64; }
+
+  /// Members voxel after voxel, in each the one nearest to its center first: sums of floats have one order, whatever
+  /// that of the points. And the order of the voxels.
+  void sort_members() {
+    const std::vector<detail::Voxel>& voxels = table_.voxels();
+    first_.resize(voxels.size());
+    order_.resize(voxels.size());
+    std::uint32_t end = 0;
+    for (std::size_t v = 0; v < voxels.size(); ++v) {
+      first_[v] = end;
+      end += voxels[v].points;
+      order_[v] = static_cast<std::uint32_t>(v);
+    }
+    sorted_.resize(member_.size());
+    for (std::size_t k = 0; k < member_.size(); ++k) sorted_[first_[voxel_of_[k]]++] = member_[k];
+    for (std::size_t v = 0; v < voxels.size(); ++v) {
+      std::uint64_t* const past = sorted_.data() + first_[v];
+      first_[v] -= voxels[v].points;
+      std::sort(sorted_.data() + first_[v], past);
+    }
+    std::sort(order_.begin(), order_.end(), [&](std::uint32_t a, std::uint32_t b) {
+      for (std::size_t axis = 3; axis-- > 0;) {
+        if (voxels[a].number[axis] != voxels[b].number[axis]) return voxels[a].number[axis] < voxels[b].number[axis];
+      }
+      return false;
+    });
+  }
+
+  detail::VoxelTable table_;
+  std::vector<std::uint64_t> chosen_;    // a bit for each point
+  std::vector<std::uint32_t> voxel_of_;  // of each valid point
+  std::vector<std::uint64_t> member_;    // squared distance to the center, which orders as its bits do, and index
+  std::vector<std::uint64_t> sorted_;
+  std::vector<std::uint32_t> first_, order_;  // of voxels: their first member, and their order by z, y, x
+};
+
+/// KeypointSampler::sample_uniform() for one cloud.
 [[nodiscard]] inline Status sample_uniform(const CloudView& cloud, float leaf, std::vector<std::uint32_t>& keypoints) {
-  keypoints.clear();
-  std::vector<detail::VoxelMember> members;
-  const Status status = detail::sort_into_voxels(cloud, leaf, members);
-  if (status != Status::ok) return status;
-  const auto end = std::unique(members.begin(), members.end(), detail::same_voxel);
-  for (auto member = members.begin(); member != end; ++member) keypoints.push_back(member->index);
-  std::sort(keypoints.begin(), keypoints.end());
-  return Status::ok;
+  return KeypointSampler().sample_uniform(cloud, leaf, keypoints);
 }
 
-/// The same with the centroid, the mean color and the mean intensity (of what the cloud has) of each voxel's points:
-/// less noise than any one of them has, which pays most where the key point's color is what color distances refer to.
-/// Voxels by z, then y, then x.
+/// KeypointSampler::sample_centroids() for one cloud.
 [[nodiscard]] inline Status sample_centroids(const CloudView& cloud, float leaf, std::vector<KeyPoint>& keypoints) {
-  keypoints.clear();
-  std::vector<detail::VoxelMember> members;
-  const Status status = detail::sort_into_voxels(cloud, leaf, members);
-  if (status != Status::ok) return status;
-  const detail::VoxelMember* const end = members.data() + members.size();
-  for (const detail::VoxelMember* first = members.data(); first != end;) {
-    const detail::VoxelMember* next = first + 1;
-    while (next != end && detail::same_voxel(*first, *next)) ++next;
-    const KeyPoint centroid = detail::centroid_of(cloud, leaf, first, next);
-    // Beyond the reach of voxel numbers a point stands for itself.
-    keypoints.push_back(is_finite(centroid.position) ? centroid : keypoint(cloud, first->index));
-    first = next;
-  }
-  return Status::ok;
+  return KeypointSampler().sample_centroids(cloud, leaf, keypoints);
 }
 
 }  // namespace SHORTSHOT_CODE

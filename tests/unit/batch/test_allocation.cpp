@@ -93,13 +93,20 @@ std::vector<std::size_t> steady_allocations(Threads&& threads) {
   std::vector<std::size_t> counts;
   counts.reserve(frames.size());
   ss::GridSearch search;
+  ss::KeypointSampler sampler;
+  std::vector<std::uint32_t> sampled;
+  std::vector<ss::KeyPoint> centroids;
   ss::Extractor<D, Color> extractor;
   ss::Features<D> features;
   for (const Frame& frame : frames) {
     const std::size_t before = allocations;
+    const Status chosen = sampler.sample_uniform(frame.cloud.view(), 0.2f, sampled);  // as many voxels in each frame
+    const Status averaged = sampler.sample_centroids(frame.cloud.view(), 0.2f, centroids);
     const Status built = search.build(frame.cloud.view(), radius);
     const Status status = extractor.extract(frame.cloud.view(), search, frame.keypoints, radius, features, threads);
     counts.push_back(allocations - before);
+    REQUIRE(chosen == Status::ok);
+    REQUIRE(averaged == Status::ok);
     REQUIRE(built == Status::ok);
     REQUIRE(status == Status::ok);
     REQUIRE(features.status == std::vector<Status>(frame.keypoints.size(), Status::ok));

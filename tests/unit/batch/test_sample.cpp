@@ -163,6 +163,69 @@ TEST_CASE("sample: centroids are the means of each voxel's points and colors") {
   }
 }
 
+TEST_CASE("sample: centroids are sums of floats in one order, the nearest to the voxel's center first") {
+  for (const float leaf : {0.3f, 0.125f, 1e-4f}) {
+    TestCloud cloud = blob(9, 3000);
+    for (std::size_t i = 0; i < 300; ++i) cloud.add(cloud.at(7 * i));  // ties
+    struct Member {
+      float d2;
+      std::uint32_t index;
+      float place[3];
+    };
+    std::map<std::tuple<float, float, float>, std::vector<Member>> voxels;
+    for (std::uint32_t i = 0; i < cloud.size(); ++i) {
+      Member member{0.0f, i, {}};
+      float number[3], square[3];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float position = cloud.xyz[3 * i + axis] / leaf;
+        number[axis] = std::floor(position);
+        member.place[axis] = position - number[axis];
+        square[axis] = (member.place[axis] - 0.5f) * (member.place[axis] - 0.5f);
+      }
+      member.d2 = (square[0] + square[1]) + square[2];
+      voxels[{number[2], number[1], number[0]}].push_back(member);
+    }
+    std::vector<ss::KeyPoint> found;
+    REQUIRE(ss::sample_centroids(cloud.view(), leaf, found) == Status::ok);
+    REQUIRE(found.size() == voxels.size());
+    std::size_t k = 0;
+    for (auto& [number, members] : voxels) {
+      std::sort(members.begin(), members.end(),
+                [](const Member& a, const Member& b) { return std::tie(a.d2, a.index) < std::tie(b.d2, b.index); });
+      float sum[3] = {};
+      for (const Member& member : members)
+        for (std::size_t axis = 0; axis < 3; ++axis) sum[axis] += member.place[axis];
+      const auto mean = [&](float corner, std::size_t axis) {
+        return (corner + sum[axis] / static_cast<float>(members.size())) * leaf;
+      };
+      const ss::Point at = found[k++].position;
+      REQUIRE((at.x == mean(std::get<2>(number), 0) && at.y == mean(std::get<1>(number), 1) &&
+               at.z == mean(std::get<0>(number), 2)));
+    }
+  }
+}
+
+TEST_CASE("sample: a sampler that has seen other clouds chooses as a new one does") {
+  ss::KeypointSampler sampler;
+  for (const std::size_t points : {20000, 3, 1, 5000, 0, 20000, 700}) {
+    const TestCloud cloud = dyadic_cloud(7, points, 12);
+    for (const float leaf : {0.01f, 0.5f, 0.0f}) {
+      std::vector<std::uint32_t> indices, expected_indices;
+      std::vector<ss::KeyPoint> centroids, expected_centroids;
+      CHECK(sampler.sample_uniform(cloud.view(), leaf, indices) ==
+            ss::sample_uniform(cloud.view(), leaf, expected_indices));
+      CHECK(indices == expected_indices);
+      CHECK(sampler.sample_centroids(cloud.view(), leaf, centroids) ==
+            ss::sample_centroids(cloud.view(), leaf, expected_centroids));
+      REQUIRE(centroids.size() == expected_centroids.size());
+      for (std::size_t k = 0; k < centroids.size(); ++k) {
+        const ss::Point a = centroids[k].position, b = expected_centroids[k].position;
+        REQUIRE((a.x == b.x && a.y == b.y && a.z == b.z));
+      }
+    }
+  }
+}
+
 TEST_CASE("sample: centroids of bad input, without color, and beyond all voxel numbers") {
   std::vector<ss::KeyPoint> found(3);
   CHECK(ss::sample_centroids(ss::CloudView{}, 0.1f, found) == Status::empty_cloud);

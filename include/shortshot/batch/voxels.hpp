@@ -1,0 +1,128 @@
+// shortshot/batch/voxels.hpp: the voxels of a cloud, numbered in one pass. Hosted only: allocates.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "../base/math.hpp"
+#include "../base/simd.hpp"
+#include "../base/unroll.hpp"
+#include "../cloud/cloud.hpp"
+#include "../cloud/point_lanes.hpp"
+#include "../config.hpp"
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Points in their voxels, which lie on a grid through the origin. Voxel numbers stay floats: whole numbers, exact up
+/// to 2^24 voxels from the origin, as the coordinates are; infinite beyond float's range, where all points share one.
+struct VoxelLanes {
+  simd::F32 number[3];  ///< never -0
+  simd::F32 place[3];   ///< in the voxel, from its corner, in voxels
+  simd::F32 d2;         ///< to the voxel's center, in voxels
+};
+
+[[nodiscard]] inline simd::F32 floor_of(simd::F32 position) noexcept {
+  if (every(simd::all(4194304.0f) > simd::abs(position))) {  // 2^22
+    const simd::F32 whole = simd::to_whole(position);
+    return whole - keep(whole > position, simd::all(1.0f));
+  }
+  return simd::map([](float a) { return __builtin_floorf(a); }, position) + simd::all(0.0f);
+}
+
+[[nodiscard]] inline VoxelLanes voxels_of(const PointLanes& points, float leaf) noexcept {
+  VoxelLanes voxels;
+  const simd::F32 coordinates[3] = {points.x, points.y, points.z};
+  simd::F32 squares[3];
+  unroll<3>([&](auto axis) {
+    const simd::F32 position = coordinates[axis] / simd::all(leaf);
+    voxels.number[axis] = floor_of(position);
+    const simd::Mask finite = simd::all(HUGE_VALF) > simd::abs(position);
+    voxels.place[axis] = keep(finite, position) - keep(finite, voxels.number[axis]);
+    const simd::F32 from_center = voxels.place[axis] - simd::all(0.5f);
+    squares[axis] = from_center * from_center;
+  });
+  voxels.d2 = (squares[0] + squares[1]) + squares[2];
+  return voxels;
+}
+
+/// A voxel that holds points, and which of them is nearest to its center.
+struct Voxel {
+  float number[3];
+  float d2;
+  std::uint32_t nearest;
+  std::uint32_t points;
+};
+
+/// Voxels in the order in which their first points come. Memory is kept from cloud to cloud.
+class VoxelTable {
+ public:
+  void clear() {
+    voxels_.clear();
+    if (slots_.empty()) slots_.resize(std::size_t{1} << (64 - shift_));
+    std::fill(slots_.begin(), slots_.end(), 0u);
+    last_ = 0;
+  }
+
+  [[nodiscard]] const std::vector<Voxel>& voxels() const noexcept { return voxels_; }
+
+  /// The place, among voxels(), of a point's voxel, with the point in it. Points come in the order of their indices.
+  std::uint32_t add(const float (&number)[3], float d2, std::uint32_t index) {
+    if (last_ >= voxels_.size() || !is_at(voxels_[last_], number)) last_ = find(number);
+    Voxel& voxel = voxels_[last_];
+    ++voxel.points;
+    if (d2 < voxel.d2) {
+      voxel.d2 = d2;
+      voxel.nearest = index;
+    }
+    return last_;
+  }
+
+ private:
+  [[nodiscard]] static bool is_at(const Voxel& voxel, const float (&number)[3]) noexcept {
+    return voxel.number[0] == number[0] && voxel.number[1] == number[1] && voxel.number[2] == number[2];
+  }
+
+  /// Odd factors of 64 bits for each axis, of which the upper bits of the sum depend on all bits of the numbers.
+  [[nodiscard]] std::size_t slot_of(const float (&number)[3]) const noexcept {
+    const std::uint64_t sum = math::bits_of(number[0]) * std::uint64_t{0x9E3779B97F4A7C15} +
+                              math::bits_of(number[1]) * std::uint64_t{0xC2B2AE3D27D4EB4F} +
+                              math::bits_of(number[2]) * std::uint64_t{0x165667B19E3779F9};
+    return static_cast<std::size_t>(sum >> shift_);
+  }
+
+  [[nodiscard]] std::uint32_t find(const float (&number)[3]) {
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t slot = slot_of(number);
+    for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
+      if (is_at(voxels_[slots_[slot] - 1], number)) return slots_[slot] - 1;
+    }
+    voxels_.push_back({{number[0], number[1], number[2]}, HUGE_VALF, 0, 0});
+    slots_[slot] = static_cast<std::uint32_t>(voxels_.size());
+    const auto place = static_cast<std::uint32_t>(voxels_.size() - 1);
+    if (2 * voxels_.size() > slots_.size()) grow();
+    return place;
+  }
+
+  void grow() {
+    std::vector<std::uint32_t> slots(2 * slots_.size());
+    slots_.swap(slots);
+    --shift_;
+    for (std::size_t k = 0; k < voxels_.size(); ++k) {
+      std::size_t slot = slot_of(voxels_[k].number);
+      while (slots_[slot] != 0) slot = (slot + 1) & (slots_.size() - 1);
+      slots_[slot] = static_cast<std::uint32_t>(k + 1);
+    }
+  }
+
+  std::vector<Voxel> voxels_;
+  std::vector<std::uint32_t> slots_;  // a power of two of them, half of them empty or more: place + 1 in voxels_, or 0
+  int shift_ = 54;                    // 64 - log2 of their number
+  std::uint32_t last_ = 0;            // neighbors in the cloud mostly share a voxel
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
