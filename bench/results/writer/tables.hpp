@@ -24,7 +24,8 @@ std::string peers_table(const std::vector<JsonRow>& peers);
 /// `json` is Google Benchmark's: medians where there are any, else every run; user counters become columns.
 std::string micro_table(const std::string& path, const nlohmann::ordered_json& json);
 
-/// `json` is the instruction gate's record: compiler, flags, workload, instructions_per_neighbor.
+/// `json` is the instruction gate's record: compiler, flags, workload, instructions_per_point,
+/// instructions_per_neighbor.
 std::string instructions_table(const std::string& path, const nlohmann::ordered_json& json);
 
 /// `json` is what ./run firmware --record wrote: the README's rows, and the firmware page's tables.

@@ -106,9 +106,13 @@ std::string micro_table(const std::string& path, const nlohmann::ordered_json& j
 
 std::string instructions_table(const std::string& path, const nlohmann::ordered_json& json) {
   const JsonRow record(path, 1, json);
-  const JsonRow figures(path, 1, record.value("instructions_per_neighbor"));
-  Table table({"stage", "instructions per neighbor"});
-  for (const auto& [name, value] : figures.object().items()) table.add({name, digits(figures.number(name.c_str()))});
+  Table table({"stage", "instructions", "for each"});
+  for (const char* key : {"instructions_per_point", "instructions_per_neighbor"}) {
+    const JsonRow figures(path, 1, record.value(key));
+    const std::string unit = std::string(key).substr(std::string(key).rfind('_') + 1);
+    for (const auto& [name, value] : figures.object().items())
+      table.add({name, digits(figures.number(name.c_str())), unit});
+  }
   return "\n" + record.text("workload") + "; " + record.text("compiler") + ", `" + record.text("flags") + "`.\n\n" +
          table.markdown() + "\n";
 }

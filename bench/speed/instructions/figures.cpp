@@ -11,7 +11,7 @@ namespace {
 
 const std::string dump_line = "desc: Trigger: Client Request: ";
 const std::string count_line = "totals: ";  // the last one of a dump
-const std::string separator = ", neighbors ";
+const std::string units[] = {"neighbor", "point"};
 
 bool starts_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
@@ -25,6 +25,18 @@ double parse_count(const std::string& text) {
   return count;
 }
 
+std::string separator(const std::string& per) { return ", " + per + "s "; }
+
+Figure figure_of(const std::string& dump, double instructions) {
+  for (const std::string& per : units) {
+    const std::size_t end = dump.rfind(separator(per));
+    if (end == std::string::npos) continue;
+    const double count = parse_count(dump.substr(end + separator(per).size()));
+    return {dump.substr(0, end), instructions / count, per};
+  }
+  throw std::runtime_error("a dump of another program: '" + dump + "'");
+}
+
 const Figure* find(const std::vector<Figure>& figures, const std::string& name) {
   const auto found =
       std::find_if(figures.begin(), figures.end(), [&](const Figure& figure) { return figure.name == name; });
@@ -34,16 +46,16 @@ const Figure* find(const std::vector<Figure>& figures, const std::string& name) 
 std::string describe_difference(const Figure& measured, double recorded) {
   char text[200];
   const double share = measured.instructions / recorded - 1.0;
-  std::snprintf(text, sizeof text, "%s: %.2f instructions per neighbor, expected %.2f (%+.1f %%, allowed %g %%)%s",
-                measured.name.c_str(), measured.instructions, recorded, 100.0 * share, 100.0 * allowed_share,
-                share < 0.0 ? "; better: record it" : "");
+  std::snprintf(text, sizeof text, "%s: %.2f instructions per %s, expected %.2f (%+.1f %%, allowed %g %%)%s",
+                measured.name.c_str(), measured.instructions, measured.per.c_str(), recorded, 100.0 * share,
+                100.0 * allowed_share, share < 0.0 ? "; better: record it" : "");
   return text;
 }
 
 }  // namespace
 
-std::string dump_name(const std::string& figure, std::size_t neighbors) {
-  return figure + separator + std::to_string(neighbors);
+std::string dump_name(const std::string& figure, std::size_t count, const std::string& per) {
+  return figure + separator(per) + std::to_string(count);
 }
 
 std::vector<Figure> read_callgrind(std::istream& in) {
@@ -52,10 +64,7 @@ std::vector<Figure> read_callgrind(std::istream& in) {
   for (std::string line; std::getline(in, line);) {
     if (starts_with(line, dump_line)) name = line.substr(dump_line.size());
     if (!starts_with(line, count_line) || name.empty()) continue;
-    const std::size_t end = name.rfind(separator);
-    if (end == std::string::npos) throw std::runtime_error("a dump of another program: '" + name + "'");
-    const double neighbors = parse_count(name.substr(end + separator.size()));
-    figures.push_back({name.substr(0, end), parse_count(line.substr(count_line.size())) / neighbors});
+    figures.push_back(figure_of(name, parse_count(line.substr(count_line.size()))));
     name.clear();
   }
   if (figures.empty()) throw std::runtime_error("callgrind counted no stage");
@@ -83,17 +92,21 @@ std::string to_json(const Record& record) {
   json["compiler"] = record.compiler;
   json["flags"] = record.flags;
   json["workload"] = record.workload;
-  nlohmann::ordered_json& figures = json["instructions_per_neighbor"];
-  for (const Figure& figure : record.figures) figures[figure.name] = std::round(100.0 * figure.instructions) / 100.0;
+  for (const Figure& figure : record.figures)
+    json["instructions_per_" + figure.per][figure.name] = std::round(100.0 * figure.instructions) / 100.0;
   return json.dump(2) + "\n";
 }
 
 Record parse_record(const std::string& json) {
   const auto parsed = nlohmann::ordered_json::parse(json);
   Record record{parsed.at("compiler"), parsed.at("flags"), parsed.at("workload"), {}};
-  for (const auto& [name, value] : parsed.at("instructions_per_neighbor").items()) {
-    record.figures.push_back({name, value.get<double>()});
-    if (!(record.figures.back().instructions > 0.0)) throw std::runtime_error(name + " is not above zero");
+  for (const std::string& per : units) {
+    const auto figures = parsed.find("instructions_per_" + per);
+    if (figures == parsed.end()) continue;
+    for (const auto& [name, value] : figures->items()) {
+      record.figures.push_back({name, value.get<double>(), per});
+      if (!(record.figures.back().instructions > 0.0)) throw std::runtime_error(name + " is not above zero");
+    }
   }
   if (record.figures.empty()) throw std::runtime_error("there is no figure");
   return record;

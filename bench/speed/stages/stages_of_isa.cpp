@@ -4,6 +4,7 @@
 
 #include <malloc.h>
 
+#include <cstdint>
 #include <memory>
 #include <nanoflann.hpp>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "shortshot/search/nanoflann.hpp"
 #include "shortshot/shortshot.hpp"
+#include "speed/stages/calls_of_isa.hpp"
 #include "tools/io/view_of_cloud.hpp"
 
 #ifndef STAGES
@@ -29,51 +31,6 @@
 
 namespace shortshot_bench {
 namespace {
-
-using shortshot::Status;
-
-// The calls under test are functions of their own, so that a profile shows them and a compiler cannot merge them with
-// the loops of the benchmark.
-
-template <class Search>
-[[gnu::noinline]] Status search_around(const Search& search, const shortshot::Point& center, float radius,
-                                       shortshot::Neighborhood& n) {
-  return search.gather(center, radius, n);
-}
-
-[[gnu::noinline]] Status frame_of(const shortshot::Neighborhood& n, float radius, shortshot::Frame& frame) {
-  return shortshot::estimate_frame(n, radius, frame);
-}
-
-[[gnu::noinline]] Status normals_of_cloud(const shortshot::CloudView& view, const shortshot::GridSearch& search,
-                                          float radius, const shortshot::Viewpoint& camera,
-                                          std::vector<shortshot::SurfaceNormal>& normals) {
-  return shortshot::estimate_normals(view, search, radius, camera, normals);
-}
-
-template <class D, class Sources>
-[[gnu::noinline]] Status kernel(const shortshot::Neighborhood& n, const Sources& sources, const shortshot::Frame& frame,
-                                float radius, float* out) {
-  return shortshot::describe<D>(n, sources, frame, radius, out);
-}
-
-template <class Rule>
-[[gnu::noinline]] Status lab_of_cloud(const shortshot::CloudView& view, shortshot::Lab* lab) {
-  return shortshot::convert_colors<Rule>(view, lab);
-}
-
-template <class D>
-[[gnu::noinline]] void bits_of(const float* values, shortshot::BinaryDescriptor<D>& bits) {
-  shortshot::binarize(values, bits);
-}
-
-template <class D>
-[[gnu::noinline]] int distance_to_all(const shortshot::BinaryDescriptor<D>& one,
-                                      const std::vector<shortshot::BinaryDescriptor<D>>& all) {
-  int sum = 0;
-  for (const auto& other : all) sum += shortshot::hamming_distance(one, other);
-  return sum;
-}
 
 std::size_t allocated_bytes() {
   const struct mallinfo2 info = mallinfo2();
@@ -97,6 +54,15 @@ class StageList {
  public:
   explicit StageList(const Workload& workload)
       : workload_(workload), grid_(std::make_shared<shortshot::GridSearch>(workload.view(), workload.radius)) {}
+
+  /// The key points of the next frame, in the memory of the last one.
+  void add_sample() {
+    const auto sampler = std::make_shared<shortshot::KeypointSampler>();
+    const auto keypoints = std::make_shared<std::vector<std::uint32_t>>();
+    Stage& stage =
+        add("sample", [&w = workload_, sampler, keypoints] { return sample(w.view(), w.leaf, *sampler, *keypoints); });
+    stage.points = workload_.cloud.size();
+  }
 
   template <class Search>
   void add_index(const char* name) {
@@ -275,6 +241,7 @@ class StageList {
 
 StageBuild STAGES(const Workload& workload) {
   StageList list(workload);
+  list.add_sample();
   list.add_index<shortshot::GridSearch>("grid");
   list.add_index_again();
   list.add_index<Tree>("nanoflann");

@@ -69,7 +69,7 @@ shortshot::Neighborhood NeighborhoodMemory::empty() const {
 shortshot::CloudView Workload::view() const { return shortshot::with_normals(view_of_cloud(cloud), normals.data()); }
 
 Workload make_workload(RgbdCloud cloud, const WorkloadOptions& options) {
-  Workload workload{std::move(cloud), options.radius, 0.25f * options.radius, {}, 0, {}, 0, {}, 0, 0};
+  Workload workload{std::move(cloud), options.radius, options.leaf, 0.25f * options.radius, {}, 0, {}, 0, {}, 0, 0};
   add_normals(workload);
   const shortshot::CloudView view = workload.view();
   require(shortshot::sample_uniform(view, options.leaf, workload.sampled));

@@ -45,6 +45,7 @@ struct GatheredKeyPoint {
 struct Workload {
   RgbdCloud cloud;
   float radius;
+  float leaf;                                     // of the sampled key points
   float normal_radius;                            // a quarter of it
   std::vector<shortshot::SurfaceNormal> normals;  // one per point, towards the camera
   std::size_t normal_neighbors;                   // of all valid points together, within that radius

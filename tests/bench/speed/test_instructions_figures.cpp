@@ -29,16 +29,18 @@ std::string dump(const std::string& name, const std::string& total) {
 
 }  // namespace
 
-TEST_CASE("callgrind's dumps become instructions per neighbor, and what it writes at the end is left out") {
+TEST_CASE("callgrind's dumps become instructions per neighbor or point, and what it writes at the end is left out") {
   const std::string head = "# callgrind format\nversion: 1\ncmd: ./instructions count\n";
   const std::string end = "\ndesc: Trigger: Program termination\n\nevents: Ir\nsummary: 0\n\ntotals: 77\n";
-  const auto figures =
-      read(head + dump(dump_name("frame sse2", 1000), "21360") + dump(dump_name("kernel Ssh32 avx2", 3), "12") + end);
+  const auto figures = read(head + dump(dump_name("frame sse2", 1000, "neighbor"), "21360") +
+                            dump(dump_name("sample avx2", 3, "point"), "12") + end);
   REQUIRE(figures.size() == 2);
   CHECK(figures[0].name == "frame sse2");
   CHECK(figures[0].instructions == doctest::Approx(21.36));
-  CHECK(figures[1].name == "kernel Ssh32 avx2");
+  CHECK(figures[0].per == "neighbor");
+  CHECK(figures[1].name == "sample avx2");
   CHECK(figures[1].instructions == doctest::Approx(4.0));
+  CHECK(figures[1].per == "point");
 }
 
 TEST_CASE("no or broken counts are refused") {
@@ -47,8 +49,8 @@ TEST_CASE("no or broken counts are refused") {
   CHECK_THROWS_WITH(read(dump("frame sse2", "5")), "a dump of another program: 'frame sse2'");
   CHECK_THROWS_WITH(read(dump("frame sse2, neighbors ", "5")), "no number above zero: ''");
   CHECK_THROWS_WITH(read(dump("frame sse2, neighbors 0", "5")), "no number above zero: '0'");
-  CHECK_THROWS_WITH(read(dump(dump_name("frame sse2", 7), "0")), "no number above zero: '0'");
-  CHECK_THROWS_WITH(read(dump(dump_name("frame sse2", 7), "5 6")), "no number above zero: '5 6'");
+  CHECK_THROWS_WITH(read(dump(dump_name("frame sse2", 7, "neighbor"), "0")), "no number above zero: '0'");
+  CHECK_THROWS_WITH(read(dump(dump_name("frame sse2", 7, "neighbor"), "5 6")), "no number above zero: '5 6'");
 }
 
 TEST_CASE("3 % more or less than recorded pass, 4 % fail with both numbers in the message") {
@@ -78,7 +80,8 @@ TEST_CASE("figures on one side only fail, each with its name") {
 }
 
 TEST_CASE("a record survives being written and read, to the second decimal") {
-  const Record record = {"GCC 12 for x86-64", "-O2", "a scene", {{"search grid sse2", 61.344}, {"frame sse2", 47.916}}};
+  const Record record = {
+      "GCC 12 for x86-64", "-O2", "a scene", {{"search grid sse2", 61.344}, {"sample sse2", 47.916, "point"}}};
   const Record back = parse_record(to_json(record));
   CHECK(back.compiler == record.compiler);
   CHECK(back.flags == record.flags);
@@ -86,6 +89,8 @@ TEST_CASE("a record survives being written and read, to the second decimal") {
   REQUIRE(back.figures.size() == 2);
   CHECK(back.figures[0].name == "search grid sse2");
   CHECK(back.figures[0].instructions == doctest::Approx(61.34).epsilon(1e-9));
+  CHECK(back.figures[1].name == "sample sse2");
+  CHECK(back.figures[1].per == "point");
   CHECK(back.figures[1].instructions == doctest::Approx(47.92).epsilon(1e-9));
 }
 
@@ -99,7 +104,7 @@ TEST_CASE("a record that says nothing is refused") {
   CHECK_THROWS_WITH(parse_record(head + R"(, "instructions_per_neighbor": {"frame": 0}})"), "frame is not above zero");
 }
 
-TEST_CASE("the record of the project has search, frame, normals and six kernels for two instruction sets") {
+TEST_CASE("the record of the project has all stages of a frame for two instruction sets") {
   std::ifstream in(SHORTSHOT_TEST_DATA "/../../bench/speed/instructions/expected.json");
   REQUIRE(in);
   const Record record = parse_record({std::istreambuf_iterator<char>(in), {}});
@@ -110,6 +115,10 @@ TEST_CASE("the record of the project has search, frame, normals and six kernels 
                                     "kernel IntensityShape336 ", "kernel ShapeColor95 ", "kernel ShapeColor32 "}) {
       expected.push_back({stage + isa, 1.0});
     }
+  }
+  for (const std::string isa : {"sse2", "avx2"}) {
+    for (const std::string stage : {"sample ", "index grid again ", "lab "})
+      expected.push_back({stage + isa, 1.0, "point"});
   }
   REQUIRE(record.figures.size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(record.figures[i].name == expected[i].name);
