@@ -156,36 +156,72 @@ struct GridBox {
   return true;
 }
 
-/// Cut the thinly populated ends off one axis: of 64 slices, those at either end that together hold at most 1 point in
-/// 128. Returns whether that at least halved the extent, which is when another round is worth while.
+/// Slices of an extent along some of its axes, and how many points lie in each: of 64 slices those at either end that
+/// together hold at most 1 point in 128 can be cut off.
 template <class Index>
-[[nodiscard]] inline bool trim(const CloudView& cloud, std::size_t valid, std::size_t axis, Index* slices,
-                               Extent& extent) noexcept {
-  constexpr int count = 64;
-  const float low = extent.low[axis];
-  const float width = extent.high[axis] / count - low / count;  // finite, whatever the extent
-  if (!(width > 0.0f)) return false;
-  for (int s = 0; s < count; ++s) slices[s] = 0;
-  const auto slice_of = [&](float v) {
-    const float s = (v - low) / width;
-    return !(s > 0.0f) ? 0 : s < count - 1.0f ? static_cast<int>(s) : count - 1;
-  };
-  for_each_valid(cloud, [&](std::size_t, const Point& p) { ++slices[slice_of(coordinate(p, axis))]; });
+class ThinEnds {
+ public:
+  static constexpr int slices = 64;
 
-  int first = 0;
-  int last = count - 1;
-  std::size_t below = slices[first];
-  std::size_t above = slices[last];
-  for (; below <= valid / 128 && first < last; below += slices[first]) ++first;
-  for (; above <= valid / 128 && first < last; above += slices[last]) --last;
-  const auto begin_of = [&](int slice) {
-    const float half = unfused(static_cast<float>(slice) * (0.5f * width));
-    return (low + half) + half;
-  };
-  extent.low[axis] = begin_of(first);
-  extent.high[axis] = begin_of(last + 1);
-  return 2 * (last + 1 - first) <= count;
-}
+  /// Counts the valid points of a cloud along the axes from `first` on, as many as `counts` has room for; looks at all
+  /// points.
+  void count(const CloudView& cloud, const Extent& extent, std::size_t first, Index* counts,
+             std::size_t room) noexcept {
+    first_ = first;
+    end_ = 3 * std::size_t{slices} <= room ? 3 : first + 1;
+    counts_ = counts;
+    simd::F32 low[3], width[3];
+    for (std::size_t axis = first; axis < end_; ++axis) {
+      width_[axis] = extent.high[axis] / slices - extent.low[axis] / slices;  // finite, whatever the extent
+      low[axis] = simd::all(extent.low[axis]);
+      width[axis] = simd::all(width_[axis] > 0.0f ? width_[axis] : 1.0f);
+      for (int s = 0; s < slices; ++s) at(axis)[s] = 0;
+    }
+    for_each_valid_register(cloud, [&](std::size_t, const PointLanes& p, simd::Mask valid) {
+      const simd::F32 v[3] = {p.x, p.y, p.z};
+      std::int32_t is_valid[simd::lanes];
+      simd::store(is_valid, keep(valid, simd::all_int(1)));
+      for (std::size_t axis = first_; axis < end_; ++axis) {
+        const simd::F32 slice = (v[axis] - low[axis]) / width[axis];
+        std::int32_t slice_of[simd::lanes];
+        simd::store(slice_of, truncate_to_int(min(max(slice, simd::all(0.0f)), simd::all(slices - 1.0f))));
+        for (std::size_t lane = 0; lane < simd::lanes; ++lane)
+          at(axis)[slice_of[lane]] = static_cast<Index>(at(axis)[slice_of[lane]] + is_valid[lane]);
+      }
+    });
+  }
+
+  [[nodiscard]] bool has_counted(std::size_t axis) const noexcept { return first_ <= axis && axis < end_; }
+
+  /// Cuts thin ends off an axis that was counted. Returns whether that at least halved the extent, which is when
+  /// another round is worth while.
+  [[nodiscard]] bool cut(std::size_t valid, std::size_t axis, Extent& extent) const noexcept {
+    const float width = width_[axis];
+    if (!(width > 0.0f)) return false;
+    const Index* const counts = at(axis);
+    int first = 0;
+    int last = slices - 1;
+    std::size_t below = counts[first];
+    std::size_t above = counts[last];
+    for (; below <= valid / 128 && first < last; below += counts[first]) ++first;
+    for (; above <= valid / 128 && first < last; above += counts[last]) --last;
+    const float low = extent.low[axis];
+    const auto begin_of = [&](int slice) {
+      const float half = unfused(static_cast<float>(slice) * (0.5f * width));
+      return (low + half) + half;
+    };
+    extent.low[axis] = begin_of(first);
+    extent.high[axis] = begin_of(last + 1);
+    return 2 * (last + 1 - first) <= slices;
+  }
+
+ private:
+  [[nodiscard]] Index* at(std::size_t axis) const noexcept { return counts_ + (axis - first_) * slices; }
+
+  Index* counts_ = nullptr;
+  std::size_t first_ = 0, end_ = 0;  ///< axes
+  float width_[3] = {};
+};
 
 /// Where the cells of an extent are more than `capacity`: cut thinly populated ends off it. `scratch` has as many
 /// elements and is free to be written.
@@ -193,11 +229,13 @@ template <class Index>
 inline void leave_outliers_out(const CloudView& cloud, std::size_t valid, float cell_size, Index* scratch,
                                std::size_t capacity, Extent& extent) noexcept {
   std::uint32_t dims[3];
+  ThinEnds<Index> ends;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     // A round divides the extent by up to 64: two dozen span all of float's range.
-    for (int round = 0; round < 24 && capacity >= 64; ++round) {
+    for (int round = 0; round < 24 && capacity >= ThinEnds<Index>::slices; ++round) {
       if (count_cells(extent, cell_size, capacity, dims)) return;
-      if (!trim(cloud, valid, axis, scratch, extent)) break;
+      if (round > 0 || !ends.has_counted(axis)) ends.count(cloud, extent, axis, scratch, capacity);
+      if (!ends.cut(valid, axis, extent)) break;
     }
   }
 }

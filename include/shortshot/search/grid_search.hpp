@@ -69,7 +69,7 @@ class GridSearch {
   }
 
  private:
-  static constexpr std::size_t planning_cells = 64;
+  static constexpr std::size_t planning_cells = 3 * std::size_t{detail::ThinEnds<std::uint32_t>::slices};
 
   void swap(GridSearch& other) noexcept {
     std::swap(grid_, other.grid_);
