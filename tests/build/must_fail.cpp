@@ -1,7 +1,6 @@
 // Configurations that cannot work. CASE 0 is what does work; every other one must be refused by a message that says
-// what is supported.
+// what is supported. The library is included by the command line.
 #include <array>
-#include <shortshot/shortshot.hpp>
 
 namespace {
 

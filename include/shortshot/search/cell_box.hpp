@@ -185,8 +185,10 @@ class ThinEnds {
         const simd::F32 slice = (v[axis] - low[axis]) / width[axis];
         std::int32_t slice_of[simd::lanes];
         simd::store(slice_of, truncate_to_int(min(max(slice, simd::all(0.0f)), simd::all(slices - 1.0f))));
-        for (std::size_t lane = 0; lane < simd::lanes; ++lane)
-          at(axis)[slice_of[lane]] = static_cast<Index>(at(axis)[slice_of[lane]] + is_valid[lane]);
+        for (std::size_t lane = 0; lane < simd::lanes; ++lane) {
+          Index& points = at(axis)[slice_of[lane]];
+          points = static_cast<Index>(points + static_cast<Index>(is_valid[lane]));
+        }
       }
     });
   }
