@@ -96,14 +96,14 @@ void count_instructions(const std::vector<Candidate>& candidates) {
     CALLGRIND_START_INSTRUMENTATION;
     const paper::Described described = workload.describe(candidate);
     CALLGRIND_STOP_INSTRUMENTATION;
-    const std::string name = dump_name(candidate.configuration.name, workload.keypoints());
+    const std::string name = dump_name(candidate.configuration.name, workload.keypoints(), "key point");
     CALLGRIND_DUMP_STATS_AT(name.c_str());
     std::vector<unsigned char> bytes;
     for (const Storage& storage : candidate.storages) {
       CALLGRIND_START_INSTRUMENTATION;
       pack_all(described, storage, bytes);
       CALLGRIND_STOP_INSTRUMENTATION;
-      const std::string packing = dump_name(entry_name(candidate, storage), workload.keypoints());
+      const std::string packing = dump_name(entry_name(candidate, storage), workload.keypoints(), "key point");
       CALLGRIND_DUMP_STATS_AT(packing.c_str());
     }
   }

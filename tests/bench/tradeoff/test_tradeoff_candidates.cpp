@@ -154,9 +154,9 @@ TEST_CASE("many pairs of few clouds: as pair by pair, with a reciprocal match in
   set.targets = {0, 0, 1};
   set.truths = {at_rest, at_rest, at_rest};
   PairLook look;
-  look.view.leaf = 0.05f;
-  look.view.radius = 0.1f;
-  look.view.normal_radius = 0.03f;
+  look.view.leaf = 0.1f;
+  look.view.radius = 0.06f;
+  look.view.normal_radius = 0.02f;
   look.view.points_of_cloud = true;
   const paper::Views views(
       2, [&](std::size_t i) { return i == 0 ? scene : other; }, look.view);
