@@ -1,37 +1,20 @@
-// shortshot/recognition/mean_shift.hpp: the maxima of a density of votes in space.
+// shortshot/recognition/mean_shift.hpp: the maxima of a density of votes in space. Hosted only: allocates.
 //
 // After D. Comaniciu, P. Meer: Mean shift: A robust approach toward feature space analysis (PAMI 24, 2002), with a
 // Gaussian kernel.
 #pragma once
 
-#include <cstdint>
-#include <initializer_list>
+#include <cstddef>
 
-#include "../base/math.hpp"
-#include "../base/unfused.hpp"
 #include "../cloud/cloud.hpp"
 #include "../cloud/read.hpp"
 #include "../config.hpp"
+#include "vote_cells.hpp"
+#include "vote_centers.hpp"
+#include "vote_density.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
-
-/// e^-t, for t from 0 to 80: within 3e-7 of it, relatively, and the same on every machine, as libm's is not.
-[[nodiscard]] inline float exp_minus(float t) noexcept {
-  const auto halvings = (static_cast<std::int32_t>(t * 2.88539008f) + 1) / 2;  // t / ln 2, to the nearest
-  const auto n = static_cast<float>(halvings);
-  const float r = (unfused(n * 0.693359375f) - t) - unfused(n * 2.12194440e-4f);  // ln 2 in two parts; |r| <= ln 2 / 2
-  float sum = 1.0f / 720.0f;
-  for (const float c : {1.0f / 120.0f, 1.0f / 24.0f, 1.0f / 6.0f, 0.5f, 1.0f, 1.0f}) sum = c + unfused(r * sum);
-  return unfused(sum * math::float_of(static_cast<std::uint32_t>(127 - halvings) << 23));
-}
-
-/// A vote for an object's center.
-struct Vote {
-  Point center;
-  std::uint32_t object_class;
-  std::uint32_t instance;
-};
 
 /// A place and how dense votes are there.
 struct Peak {
@@ -39,59 +22,74 @@ struct Peak {
   float density;
 };
 
-/// The density of votes (finite, borrowed, of one class): the sum of exp(-d^2 / (2 h^2)) over their distances d, with h
-/// the bandwidth.
-class VoteDensity {
+/// Climbs from votes (finite, borrowed, of one class) to the maxima of their density. The result is that of a look at
+/// all votes for each step, bit for bit. Only constructors allocate; see VoteCells.
+class MeanShift {
  public:
-  VoteDensity(const Vote* begin, const Vote* end, float bandwidth) noexcept
-      : begin_(begin),
-        end_(end),
-        reach_d2_(reach * reach * bandwidth * bandwidth),
-        still_d2_(still * still * bandwidth * bandwidth),
-        factor_(0.5f / (bandwidth * bandwidth)) {}
+  /// What a thread needs for climbs among up to `most` votes, and keeps from one to the next: those close to a place.
+  /// Not to be used after the end of a MeanShift that has used it.
+  class Memory {
+   public:
+    explicit Memory(std::size_t most) : search_(most), close_(most) {}
+    Memory(Memory&&) = default;  // a copy would have no room
+    Memory(const Memory&) = delete;
 
-  [[nodiscard]] const Vote* begin() const noexcept { return begin_; }
-  [[nodiscard]] const Vote* end() const noexcept { return end_; }
+   private:
+    friend class MeanShift;
+    VoteCells::Memory search_;
+    VoteCentersList close_;
+    Point middle_{};
+    const MeanShift* owner_ = nullptr;
+  };
 
-  /// What a vote adds to the density at a place.
-  [[nodiscard]] float weight(const Vote& vote, const Point& at) const noexcept {
-    const float d2 = squared_distance(vote.center, at);
-    return d2 < reach_d2_ ? exp_minus(unfused(factor_ * d2)) : 0.0f;
-  }
+  MeanShift(const Vote* begin, const Vote* end, float bandwidth)
+      : density_(bandwidth), cells_(begin, end, close * bandwidth) {}
 
-  /// The maximum where the mean shift from a vote ends: one look at all votes for each of at most 100 steps.
-  [[nodiscard]] Peak climb(const Vote& vote) const noexcept {
+  /// The maximum where the mean shift from a vote ends, after 100 steps at the most. Cheapest where the last climb with
+  /// the same memory, since this was made, began or ended close by.
+  [[nodiscard]] Peak climb(const Vote& vote, Memory& memory) const noexcept {
+    const float still_d2 = still * still * density_.bandwidth() * density_.bandwidth();
     Peak peak{vote.center, 0.0f};
     Point at = vote.center;
     for (int step = 0; step < most_steps; ++step) {
-      float density = 0.0f;
-      Point shift{};  // of differences, not of positions: no loss far away from the origin
-      for (const Vote& other : *this) {
-        const float w = weight(other, at);
-        if (w == 0.0f) continue;
-        density += w;
-        shift.x += unfused(w * (other.center.x - at.x));
-        shift.y += unfused(w * (other.center.y - at.y));
-        shift.z += unfused(w * (other.center.z - at.z));
-      }
-      if (!(density > peak.density)) break;  // it grows, but for rounding, from the 1 that the vote itself makes it
-      peak = {at, density};
-      at = {at.x + shift.x / density, at.y + shift.y / density, at.z + shift.z / density};
-      if (!(squared_distance(at, peak.at) > still_d2_)) break;
+      const VoteDensity::Sums sums = density_.at(at, reachable(at, memory));
+      if (!(sums.density > peak.density))
+        break;  // it grows, but for rounding, from the 1 that the vote itself makes it
+      peak = {at, sums.density};
+      at = {at.x + sums.shift.x / sums.density, at.y + sums.shift.y / sums.density, at.z + sums.shift.z / sums.density};
+      if (!(squared_distance(at, peak.at) > still_d2)) break;
     }
     return peak;
   }
 
+  /// The votes' indices, those that are close to each other one after the other.
+  template <class Function>
+  void for_each_vote(const Function& f) const {
+    cells_.for_each_by_cells(f);
+  }
+
  private:
-  static constexpr float reach = 6.0f;   // in bandwidths; the weight of a vote that far away is lost next to a 1
   static constexpr float still = 1e-3f;  // a shift that ends the climb, in bandwidths
   static constexpr int most_steps = 100;
+  // In bandwidths; a list of what is close is as good for places that are as near to its middle.
+  static constexpr float margin = 0.75f;
+  static constexpr float close = 1.001f * (VoteDensity::reach + margin);
 
-  const Vote* begin_;
-  const Vote* end_;
-  float reach_d2_;
-  float still_d2_;
-  float factor_;
+  /// All votes in reach of a place, and few others.
+  [[nodiscard]] VoteCenters reachable(const Point& at, Memory& memory) const noexcept {
+    const float bandwidth = density_.bandwidth();
+    const bool known = memory.owner_ == this &&
+                       squared_distance(at, memory.middle_) < extend::unfused(margin * bandwidth * margin * bandwidth);
+    if (!known) {
+      memory.close_.assign_close(cells_.around(at, memory.search_), at, close * bandwidth);
+      memory.middle_ = at;
+      memory.owner_ = this;
+    }
+    return memory.close_.centers();
+  }
+
+  VoteDensity density_;
+  VoteCells cells_;
 };
 
 }  // namespace SHORTSHOT_CODE

@@ -144,9 +144,10 @@ TEST_CASE("mean shift: climbs to where the density in double precision has its m
                      0,
                      0});
   }
-  const ss::detail::VoteDensity density(votes.data(), votes.data() + votes.size(), bandwidth);
+  const ss::detail::MeanShift shift(votes.data(), votes.data() + votes.size(), bandwidth);
+  ss::detail::MeanShift::Memory memory(votes.size());
   for (const Vote& vote : votes) {
-    const ss::detail::Peak peak = density.climb(vote);
+    const ss::detail::Peak peak = shift.climb(vote, memory);
     const double at[3] = {static_cast<double>(peak.at.x), static_cast<double>(peak.at.y),
                           static_cast<double>(peak.at.z)};
     double mean[3];
@@ -165,11 +166,13 @@ TEST_CASE("mean shift: never down, even where coordinates are coarser than the b
   const auto coarse = [&] { return 1000.0f + step * static_cast<float>(random.below(20)); };
   for (int i = 0; i < 300; ++i) votes.push_back({{coarse(), coarse(), coarse()}, 0, 0});
   for (const float bandwidth : {0.2f * step, 0.5f * step, step, 2.0f * step}) {
-    const ss::detail::VoteDensity density(votes.data(), votes.data() + votes.size(), bandwidth);
+    const ss::detail::VoteDensity density(bandwidth);
+    const ss::detail::MeanShift shift(votes.data(), votes.data() + votes.size(), bandwidth);
+    ss::detail::MeanShift::Memory memory(votes.size());
     for (const Vote& vote : votes) {
       float at_vote = 0.0f;
       for (const Vote& other : votes) at_vote += density.weight(other, vote.center);
-      CHECK(density.climb(vote).density >= at_vote);
+      CHECK(shift.climb(vote, memory).density >= at_vote);
     }
   }
 }
