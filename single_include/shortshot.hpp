@@ -14410,8 +14410,7 @@ class MeanShift {
     Point at = vote.center;
     for (int step = 0; step < most_steps; ++step) {
       const VoteDensity::Sums sums = density_.at(at, reachable(at, memory));
-      if (!(sums.density > peak.density))
-        break;  // it grows, but for rounding, from the 1 that the vote itself makes it
+      if (!(sums.density > peak.density)) break;  // it grows, but for rounding, from the 1 of the vote itself
       peak = {at, sums.density};
       at = {at.x + sums.shift.x / sums.density, at.y + sums.shift.y / sums.density, at.z + sums.shift.z / sums.density};
       if (!(squared_distance(at, peak.at) > still_d2)) break;
@@ -14428,8 +14427,7 @@ class MeanShift {
  private:
   static constexpr float still = 1e-3f;  // a shift that ends the climb, in bandwidths
   static constexpr int most_steps = 100;
-  // In bandwidths; a list of what is close is as good for places that are as near to its middle.
-  static constexpr float margin = 0.75f;
+  static constexpr float margin = 0.75f;  // how far from its middle a list of what is close is good, in bandwidths
   static constexpr float close = 1.001f * (VoteDensity::reach + margin);
 
   /// All votes in reach of a place, and few others.
@@ -14784,10 +14782,11 @@ template <class D>
 /// `threads`  how many threads share the work, or an executor (see extract()); the result is the same, bit for bit,
 ///            for any number, and on every machine
 ///
-/// Statuses: what train() has, bad_option and not_trained; `out` is empty then. The cost is that of nearest() and of
-/// mean shift from every vote, which looks at the votes of its class up to seven bandwidths away: some 20 instructions
-/// (SSE2) for each of them and each of some ten steps. Allocates what nearest() does, for each vote about 150 bytes,
-/// and 32 for each thread, and where many votes lie closer together than that up to 700 more.
+/// Statuses: what train() has, bad_option and not_trained; `out` is empty then. The cost is that of nearest(), of mean
+/// shift from every vote, and of a look at all votes for each hypothesis. Mean shift takes some ten steps, each of them
+/// 20 instructions (SSE2) for every vote of the class that is less than seven bandwidths away: 25 million for 2000
+/// votes, half of them spread over two cubic meters. Allocates what nearest() does, 250 bytes for each vote and 32 more
+/// for each thread, and up to 700 more where many votes lie closer together than that.
 template <class Threads = unsigned>
 [[nodiscard]] Status recognize(const Recognizer& recognizer, const FeatureRows& rows, std::string_view layout,
                                std::vector<Hypothesis>& out, Threads&& threads = 1u) {

@@ -53,8 +53,7 @@ class MeanShift {
     Point at = vote.center;
     for (int step = 0; step < most_steps; ++step) {
       const VoteDensity::Sums sums = density_.at(at, reachable(at, memory));
-      if (!(sums.density > peak.density))
-        break;  // it grows, but for rounding, from the 1 that the vote itself makes it
+      if (!(sums.density > peak.density)) break;  // it grows, but for rounding, from the 1 of the vote itself
       peak = {at, sums.density};
       at = {at.x + sums.shift.x / sums.density, at.y + sums.shift.y / sums.density, at.z + sums.shift.z / sums.density};
       if (!(squared_distance(at, peak.at) > still_d2)) break;
@@ -71,8 +70,7 @@ class MeanShift {
  private:
   static constexpr float still = 1e-3f;  // a shift that ends the climb, in bandwidths
   static constexpr int most_steps = 100;
-  // In bandwidths; a list of what is close is as good for places that are as near to its middle.
-  static constexpr float margin = 0.75f;
+  static constexpr float margin = 0.75f;  // how far from its middle a list of what is close is good, in bandwidths
   static constexpr float close = 1.001f * (VoteDensity::reach + margin);
 
   /// All votes in reach of a place, and few others.

@@ -247,10 +247,11 @@ template <class D>
 /// `threads`  how many threads share the work, or an executor (see extract()); the result is the same, bit for bit,
 ///            for any number, and on every machine
 ///
-/// Statuses: what train() has, bad_option and not_trained; `out` is empty then. The cost is that of nearest() and of
-/// mean shift from every vote, which looks at the votes of its class up to seven bandwidths away: some 20 instructions
-/// (SSE2) for each of them and each of some ten steps. Allocates what nearest() does, for each vote about 150 bytes,
-/// and 32 for each thread, and where many votes lie closer together than that up to 700 more.
+/// Statuses: what train() has, bad_option and not_trained; `out` is empty then. The cost is that of nearest(), of mean
+/// shift from every vote, and of a look at all votes for each hypothesis. Mean shift takes some ten steps, each of them
+/// 20 instructions (SSE2) for every vote of the class that is less than seven bandwidths away: 25 million for 2000
+/// votes, half of them spread over two cubic meters. Allocates what nearest() does, 250 bytes for each vote and 32 more
+/// for each thread, and up to 700 more where many votes lie closer together than that.
 template <class Threads = unsigned>
 [[nodiscard]] Status recognize(const Recognizer& recognizer, const FeatureRows& rows, std::string_view layout,
                                std::vector<Hypothesis>& out, Threads&& threads = 1u) {
