@@ -14672,22 +14672,22 @@ template <class Threads>
 inline void choose(const Recognizer& recognizer, const std::vector<Vote>& votes, const std::vector<Peak>& peaks,
                    std::vector<Hypothesis>& out) {
   const float bandwidth = recognizer.options().bandwidth;
-  std::vector<std::uint8_t> is_known(peaks.size());  // at a hypothesis, or near one of the same class
-  while (out.size() < recognizer.options().most) {
-    std::size_t densest = peaks.size();
-    for (std::size_t i = 0; i < peaks.size(); ++i) {
-      const bool denser = densest == peaks.size() || peaks[i].density > peaks[densest].density;
-      if (is_known[i] == 0 && denser) densest = i;
-    }
-    if (densest == peaks.size()) break;
-    const std::uint32_t object_class = votes[densest].object_class;
-    const Point& at = peaks[densest].at;
-    is_known[densest] = 1;
-    for (std::size_t i = 0; i < peaks.size(); ++i) {
-      const bool close = squared_distance(at, peaks[i].at) <= unfused(bandwidth * bandwidth);
-      if (close && votes[i].object_class == object_class) is_known[i] = 1;
-    }
-    out.push_back({object_class, heaviest_instance(recognizer, votes, object_class, at), at, peaks[densest].density});
+  std::vector<std::size_t> order;
+  order.reserve(peaks.size());
+  while (order.size() < peaks.size()) order.push_back(order.size());
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return peaks[a].density > peaks[b].density || (peaks[a].density == peaks[b].density && a < b);
+  });
+  for (const std::size_t i : order) {
+    if (out.size() == recognizer.options().most) break;
+    const std::uint32_t object_class = votes[i].object_class;
+    const Point& at = peaks[i].at;
+    const bool is_known = std::any_of(out.begin(), out.end(), [&](const Hypothesis& denser) {
+      return denser.object_class == object_class &&
+             squared_distance(denser.center, at) <= unfused(bandwidth * bandwidth);
+    });
+    if (is_known) continue;
+    out.push_back({object_class, heaviest_instance(recognizer, votes, object_class, at), at, peaks[i].density});
   }
 }
 

@@ -78,6 +78,26 @@ void check_like_plain(const std::vector<Vote>& votes, float bandwidth) {
   CHECK(others == 0);
 }
 
+/// Where the hypotheses are: the densest peak, then the densest one that is not near it, and so on.
+std::vector<std::size_t> plain_choice(const std::vector<Vote>& votes, const std::vector<Peak>& peaks, float bandwidth,
+                                      std::size_t most) {
+  std::vector<std::size_t> chosen;
+  std::vector<bool> is_known(peaks.size());
+  while (chosen.size() < most) {
+    std::size_t densest = peaks.size();
+    for (std::size_t i = 0; i < peaks.size(); ++i) {
+      if (!is_known[i] && (densest == peaks.size() || peaks[i].density > peaks[densest].density)) densest = i;
+    }
+    if (densest == peaks.size()) break;
+    for (std::size_t i = 0; i < peaks.size(); ++i) {
+      const bool close = ss::squared_distance(peaks[densest].at, peaks[i].at) <= bandwidth * bandwidth;
+      if (close && votes[i].object_class == votes[densest].object_class) is_known[i] = true;
+    }
+    chosen.push_back(densest);
+  }
+  return chosen;
+}
+
 Vote vote_at(float x, float y, float z) { return {{x, y, z}, 0, 0}; }
 
 /// Three heaps, and votes all over a cube, mixed.
@@ -154,6 +174,35 @@ TEST_CASE("mean shift: a look at few votes finds all that are close, in their or
     CHECK((found.padded == 0 || i < found.padded));
   }
   CHECK(seen < 400 * votes.size() / 20);
+}
+
+TEST_CASE("mean shift: hypotheses are the densest peaks that are not near a denser one of their class") {
+  ss::Recognizer recognizer;
+  const View object = synthetic_object(3, 1);
+  for (const char* name : {"a", "b", "c"})
+    REQUIRE(ss::train(recognizer, object.rows(), synthetic_layout, {}, name, name) == ss::Status::ok);
+  Random random(31);
+  for (const std::size_t count : {0u, 1u, 20u, 300u}) {
+    for (const std::uint32_t most : {1u, 8u, 1000u}) {
+      std::vector<Vote> votes;
+      std::vector<Peak> peaks;
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto object_class = static_cast<std::uint32_t>(3 * i / count);
+        const auto whole = [&] { return static_cast<float>(random.below(6)); };  // many are equal, or exactly as near
+        peaks.push_back({{whole(), whole(), whole()}, whole()});
+        votes.push_back({peaks.back().at, object_class, object_class});
+      }
+      recognizer.set_options({1.0f, 1, most});
+      std::vector<ss::Hypothesis> found;
+      ss::detail::choose(recognizer, votes, peaks, found);
+      const std::vector<std::size_t> expected = plain_choice(votes, peaks, 1.0f, most);
+      REQUIRE(found.size() == expected.size());
+      for (std::size_t k = 0; k < found.size(); ++k) {
+        CHECK(found[k].object_class == votes[expected[k]].object_class);
+        CHECK(same_bits(Peak{found[k].center, found[k].score}, peaks[expected[k]]));
+      }
+    }
+  }
 }
 
 TEST_CASE("mean shift: recognize() gives what a look at all votes of a class gives") {
