@@ -189,7 +189,9 @@ TEST_CASE("sample: centroids are sums of floats in one order, the nearest to the
     REQUIRE(ss::sample_centroids(cloud.view(), leaf, found) == Status::ok);
     REQUIRE(found.size() == voxels.size());
     std::size_t k = 0;
-    for (auto& [number, members] : voxels) {
+    for (auto& voxel : voxels) {
+      const auto& number = voxel.first;
+      std::vector<Member>& members = voxel.second;
       std::sort(members.begin(), members.end(),
                 [](const Member& a, const Member& b) { return std::tie(a.d2, a.index) < std::tie(b.d2, b.index); });
       float sum[3] = {};
@@ -207,7 +209,7 @@ TEST_CASE("sample: centroids are sums of floats in one order, the nearest to the
 
 TEST_CASE("sample: a sampler that has seen other clouds chooses as a new one does") {
   ss::KeypointSampler sampler;
-  for (const std::size_t points : {20000, 3, 1, 5000, 0, 20000, 700}) {
+  for (const unsigned points : {20000u, 3u, 1u, 5000u, 0u, 20000u, 700u}) {
     const TestCloud cloud = dyadic_cloud(7, points, 12);
     for (const float leaf : {0.01f, 0.5f, 0.0f}) {
       std::vector<std::uint32_t> indices, expected_indices;
