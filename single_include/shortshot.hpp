@@ -5368,14 +5368,17 @@ constexpr bool is_shared(int k) noexcept {
 }
 
 /// The integers that votes are added to live in the caller's output array, bit for bit, until they are normalized: no
-/// second array is needed. memcpy is how C++ says that; compilers make one add of it, if they are told the alignment
-/// where CPUs insist on it.
+/// second array is needed. memcpy is how C++ says that; compilers make one load or store of it, if they are told the
+/// alignment where CPUs insist on it.
+[[nodiscard, gnu::always_inline]] inline std::int32_t integer_at(const float* value) noexcept {
+  std::int32_t integer = 0;
+  std::memcpy(&integer, __builtin_assume_aligned(value, alignof(float)), sizeof integer);
+  return integer;
+}
+
 inline void add_bits(float* value, std::int32_t weight) noexcept {
-  void* const place = __builtin_assume_aligned(value, alignof(float));
-  std::int32_t sum = 0;
-  std::memcpy(&sum, place, sizeof sum);
-  sum += weight;
-  std::memcpy(place, &sum, sizeof sum);
+  const std::int32_t sum = integer_at(value) + weight;
+  std::memcpy(__builtin_assume_aligned(value, alignof(float)), &sum, sizeof sum);
 }
 
 /// One vote of the only lane.
@@ -5650,11 +5653,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// Integers to floats, in place.
 inline void to_floats(float* values, int size) noexcept {
-  for (int i = 0; i < size; ++i) {
-    std::int32_t sum = 0;
-    std::memcpy(&sum, __builtin_assume_aligned(values + i, alignof(float)), sizeof sum);
-    values[i] = static_cast<float>(sum);
-  }
+  for (int i = 0; i < size; ++i) values[i] = static_cast<float>(integer_at(values + i));
 }
 
 /// Integers (or, of parts that are finished, floats) to floats of L2 norm 1. Squares are added up in eight places,
@@ -7016,16 +7015,12 @@ class ThinEnds {
     }
     for_each_valid_register(cloud, [&](std::size_t, const PointLanes& p, simd::Mask valid) {
       const simd::F32 v[3] = {p.x, p.y, p.z};
-      std::int32_t is_valid[simd::lanes];
-      simd::store(is_valid, keep(valid, simd::all_int(1)));
+      const simd::Packing packing = simd::packing(valid);
       for (std::size_t axis = first_; axis < end_; ++axis) {
         const simd::F32 slice = (v[axis] - low[axis]) / width[axis];
-        std::int32_t slice_of[simd::lanes];
-        simd::store(slice_of, truncate_to_int(min(max(slice, simd::all(0.0f)), simd::all(slices - 1.0f))));
-        for (std::size_t lane = 0; lane < simd::lanes; ++lane) {
-          Index& points = at(axis)[slice_of[lane]];
-          points = static_cast<Index>(points + static_cast<Index>(is_valid[lane]));
-        }
+        std::uint32_t slice_of[simd::lanes];
+        simd::store(slice_of, truncate_to_int(min(max(slice, simd::all(0.0f)), simd::all(slices - 1.0f))), packing);
+        for (std::uint32_t k = 0; k < packing.count; ++k) ++at(axis)[slice_of[k]];
       }
     });
   }
@@ -9326,23 +9321,23 @@ class VoxelTable {
     return voxel.number[0] == number[0] && voxel.number[1] == number[1] && voxel.number[2] == number[2];
   }
 
-  /// Odd factors of 64 bits for each axis, of which the upper bits of the sum depend on all bits of the numbers.
+  /// The slot that has a voxel, or the free one for it. Odd factors of 64 bits for each axis: the upper bits of the sum
+  /// depend on all bits of the numbers.
   [[nodiscard]] std::size_t slot_of(const float (&number)[3]) const noexcept {
     const std::uint64_t sum = math::bits_of(number[0]) * std::uint64_t{0x9E3779B97F4A7C15} +
                               math::bits_of(number[1]) * std::uint64_t{0xC2B2AE3D27D4EB4F} +
                               math::bits_of(number[2]) * std::uint64_t{0x165667B19E3779F9};
-    return static_cast<std::size_t>(sum >> shift_);
+    auto slot = static_cast<std::size_t>(sum >> shift_);
+    while (slots_[slot] != 0 && !is_at(voxels_[slots_[slot] - 1], number)) slot = (slot + 1) & (slots_.size() - 1);
+    return slot;
   }
 
   [[nodiscard]] std::uint32_t find(const float (&number)[3]) {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t slot = slot_of(number);
-    for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
-      if (is_at(voxels_[slots_[slot] - 1], number)) return slots_[slot] - 1;
-    }
+    const std::size_t slot = slot_of(number);
+    if (slots_[slot] != 0) return slots_[slot] - 1;
+    const auto place = static_cast<std::uint32_t>(voxels_.size());
     voxels_.push_back({{number[0], number[1], number[2]}, HUGE_VALF, 0, 0});
-    slots_[slot] = static_cast<std::uint32_t>(voxels_.size());
-    const auto place = static_cast<std::uint32_t>(voxels_.size() - 1);
+    slots_[slot] = place + 1;
     if (2 * voxels_.size() > slots_.size()) grow();
     return place;
   }
@@ -9351,11 +9346,8 @@ class VoxelTable {
     std::vector<std::uint32_t> slots(2 * slots_.size());
     slots_.swap(slots);
     --shift_;
-    for (std::size_t k = 0; k < voxels_.size(); ++k) {
-      std::size_t slot = slot_of(voxels_[k].number);
-      while (slots_[slot] != 0) slot = (slot + 1) & (slots_.size() - 1);
-      slots_[slot] = static_cast<std::uint32_t>(k + 1);
-    }
+    for (std::size_t k = 0; k < voxels_.size(); ++k)
+      slots_[slot_of(voxels_[k].number)] = static_cast<std::uint32_t>(k + 1);
   }
 
   std::vector<Voxel> voxels_;
@@ -14090,6 +14082,18 @@ inline void pad(float* x, float* y, float* z, std::size_t count) noexcept {
   }
 }
 
+/// The centers of votes[i] for each index, as columns.
+inline void write_centers(const Vote* votes, const std::vector<std::size_t>& indices, float* x, float* y,
+                          float* z) noexcept {
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    const Point& center = votes[indices[k]].center;
+    x[k] = center.x;
+    y[k] = center.y;
+    z[k] = center.z;
+  }
+  pad(x, y, z, indices.size());
+}
+
 /// A list of its own, of up to `most` centers; only the constructor allocates: 12 bytes for each.
 class VoteCentersList {
  public:
@@ -14101,13 +14105,8 @@ class VoteCentersList {
 
   /// The centers of votes[i] for each index.
   void assign(const Vote* votes, const std::vector<std::size_t>& indices) noexcept {
-    count_ = 0;
-    for (const std::size_t i : indices) {
-      x()[count_] = votes[i].center.x;
-      y()[count_] = votes[i].center.y;
-      z()[count_++] = votes[i].center.z;
-    }
-    pad(x(), y(), z(), count_);
+    count_ = indices.size();
+    write_centers(votes, indices, x(), y(), z());
   }
 
   /// Those of others that lie within a distance of a place, as they are ordered.
@@ -14250,15 +14249,7 @@ class VoteCells {
     const List list{cell, xyz_.size(), padded(indices.size())};
     xyz_.resize(list.begin + 3 * list.padded);
     float* const x = xyz_.data() + list.begin;
-    float* const y = x + list.padded;
-    float* const z = y + list.padded;
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-      const Point& center = votes_[indices[i]].center;
-      x[i] = center.x;
-      y[i] = center.y;
-      z[i] = center.z;
-    }
-    pad(x, y, z, indices.size());
+    write_centers(votes_, indices, x, x + list.padded, x + 2 * list.padded);
     lists_.push_back(list);
   }
 
@@ -14672,9 +14663,8 @@ template <class Threads>
 inline void choose(const Recognizer& recognizer, const std::vector<Vote>& votes, const std::vector<Peak>& peaks,
                    std::vector<Hypothesis>& out) {
   const float bandwidth = recognizer.options().bandwidth;
-  std::vector<std::size_t> order;
-  order.reserve(peaks.size());
-  while (order.size() < peaks.size()) order.push_back(order.size());
+  std::vector<std::size_t> order(peaks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return peaks[a].density > peaks[b].density || (peaks[a].density == peaks[b].density && a < b);
   });

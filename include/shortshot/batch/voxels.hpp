@@ -86,23 +86,23 @@ class VoxelTable {
     return voxel.number[0] == number[0] && voxel.number[1] == number[1] && voxel.number[2] == number[2];
   }
 
-  /// Odd factors of 64 bits for each axis, of which the upper bits of the sum depend on all bits of the numbers.
+  /// The slot that has a voxel, or the free one for it. Odd factors of 64 bits for each axis: the upper bits of the sum
+  /// depend on all bits of the numbers.
   [[nodiscard]] std::size_t slot_of(const float (&number)[3]) const noexcept {
     const std::uint64_t sum = math::bits_of(number[0]) * std::uint64_t{0x9E3779B97F4A7C15} +
                               math::bits_of(number[1]) * std::uint64_t{0xC2B2AE3D27D4EB4F} +
                               math::bits_of(number[2]) * std::uint64_t{0x165667B19E3779F9};
-    return static_cast<std::size_t>(sum >> shift_);
+    auto slot = static_cast<std::size_t>(sum >> shift_);
+    while (slots_[slot] != 0 && !is_at(voxels_[slots_[slot] - 1], number)) slot = (slot + 1) & (slots_.size() - 1);
+    return slot;
   }
 
   [[nodiscard]] std::uint32_t find(const float (&number)[3]) {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t slot = slot_of(number);
-    for (; slots_[slot] != 0; slot = (slot + 1) & mask) {
-      if (is_at(voxels_[slots_[slot] - 1], number)) return slots_[slot] - 1;
-    }
+    const std::size_t slot = slot_of(number);
+    if (slots_[slot] != 0) return slots_[slot] - 1;
+    const auto place = static_cast<std::uint32_t>(voxels_.size());
     voxels_.push_back({{number[0], number[1], number[2]}, HUGE_VALF, 0, 0});
-    slots_[slot] = static_cast<std::uint32_t>(voxels_.size());
-    const auto place = static_cast<std::uint32_t>(voxels_.size() - 1);
+    slots_[slot] = place + 1;
     if (2 * voxels_.size() > slots_.size()) grow();
     return place;
   }
@@ -111,11 +111,8 @@ class VoxelTable {
     std::vector<std::uint32_t> slots(2 * slots_.size());
     slots_.swap(slots);
     --shift_;
-    for (std::size_t k = 0; k < voxels_.size(); ++k) {
-      std::size_t slot = slot_of(voxels_[k].number);
-      while (slots_[slot] != 0) slot = (slot + 1) & (slots_.size() - 1);
-      slots_[slot] = static_cast<std::uint32_t>(k + 1);
-    }
+    for (std::size_t k = 0; k < voxels_.size(); ++k)
+      slots_[slot_of(voxels_[k].number)] = static_cast<std::uint32_t>(k + 1);
   }
 
   std::vector<Voxel> voxels_;

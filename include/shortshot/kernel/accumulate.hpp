@@ -29,14 +29,17 @@ constexpr bool is_shared(int k) noexcept {
 }
 
 /// The integers that votes are added to live in the caller's output array, bit for bit, until they are normalized: no
-/// second array is needed. memcpy is how C++ says that; compilers make one add of it, if they are told the alignment
-/// where CPUs insist on it.
+/// second array is needed. memcpy is how C++ says that; compilers make one load or store of it, if they are told the
+/// alignment where CPUs insist on it.
+[[nodiscard, gnu::always_inline]] inline std::int32_t integer_at(const float* value) noexcept {
+  std::int32_t integer = 0;
+  std::memcpy(&integer, __builtin_assume_aligned(value, alignof(float)), sizeof integer);
+  return integer;
+}
+
 inline void add_bits(float* value, std::int32_t weight) noexcept {
-  void* const place = __builtin_assume_aligned(value, alignof(float));
-  std::int32_t sum = 0;
-  std::memcpy(&sum, place, sizeof sum);
-  sum += weight;
-  std::memcpy(place, &sum, sizeof sum);
+  const std::int32_t sum = integer_at(value) + weight;
+  std::memcpy(__builtin_assume_aligned(value, alignof(float)), &sum, sizeof sum);
 }
 
 /// One vote of the only lane.

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <type_traits>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "../descriptor/descriptor.hpp"
 #include "../descriptor/finish_rules.hpp"
 #include "../status.hpp"
+#include "accumulate.hpp"
 #include "accumulate_means.hpp"
 
 namespace shortshot::detail {
@@ -21,11 +21,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// Integers to floats, in place.
 inline void to_floats(float* values, int size) noexcept {
-  for (int i = 0; i < size; ++i) {
-    std::int32_t sum = 0;
-    std::memcpy(&sum, __builtin_assume_aligned(values + i, alignof(float)), sizeof sum);
-    values[i] = static_cast<float>(sum);
-  }
+  for (int i = 0; i < size; ++i) values[i] = static_cast<float>(integer_at(values + i));
 }
 
 /// Integers (or, of parts that are finished, floats) to floats of L2 norm 1. Squares are added up in eight places,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -137,9 +138,8 @@ template <class Threads>
 inline void choose(const Recognizer& recognizer, const std::vector<Vote>& votes, const std::vector<Peak>& peaks,
                    std::vector<Hypothesis>& out) {
   const float bandwidth = recognizer.options().bandwidth;
-  std::vector<std::size_t> order;
-  order.reserve(peaks.size());
-  while (order.size() < peaks.size()) order.push_back(order.size());
+  std::vector<std::size_t> order(peaks.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     return peaks[a].density > peaks[b].density || (peaks[a].density == peaks[b].density && a < b);
   });

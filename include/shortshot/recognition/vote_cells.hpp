@@ -124,15 +124,7 @@ class VoteCells {
     const List list{cell, xyz_.size(), padded(indices.size())};
     xyz_.resize(list.begin + 3 * list.padded);
     float* const x = xyz_.data() + list.begin;
-    float* const y = x + list.padded;
-    float* const z = y + list.padded;
-    for (std::size_t i = 0; i < indices.size(); ++i) {
-      const Point& center = votes_[indices[i]].center;
-      x[i] = center.x;
-      y[i] = center.y;
-      z[i] = center.z;
-    }
-    pad(x, y, z, indices.size());
+    write_centers(votes_, indices, x, x + list.padded, x + 2 * list.padded);
     lists_.push_back(list);
   }
 

@@ -57,6 +57,18 @@ inline void pad(float* x, float* y, float* z, std::size_t count) noexcept {
   }
 }
 
+/// The centers of votes[i] for each index, as columns.
+inline void write_centers(const Vote* votes, const std::vector<std::size_t>& indices, float* x, float* y,
+                          float* z) noexcept {
+  for (std::size_t k = 0; k < indices.size(); ++k) {
+    const Point& center = votes[indices[k]].center;
+    x[k] = center.x;
+    y[k] = center.y;
+    z[k] = center.z;
+  }
+  pad(x, y, z, indices.size());
+}
+
 /// A list of its own, of up to `most` centers; only the constructor allocates: 12 bytes for each.
 class VoteCentersList {
  public:
@@ -68,13 +80,8 @@ class VoteCentersList {
 
   /// The centers of votes[i] for each index.
   void assign(const Vote* votes, const std::vector<std::size_t>& indices) noexcept {
-    count_ = 0;
-    for (const std::size_t i : indices) {
-      x()[count_] = votes[i].center.x;
-      y()[count_] = votes[i].center.y;
-      z()[count_++] = votes[i].center.z;
-    }
-    pad(x(), y(), z(), count_);
+    count_ = indices.size();
+    write_centers(votes, indices, x(), y(), z());
   }
 
   /// Those of others that lie within a distance of a place, as they are ordered.

@@ -179,16 +179,12 @@ class ThinEnds {
     }
     for_each_valid_register(cloud, [&](std::size_t, const PointLanes& p, simd::Mask valid) {
       const simd::F32 v[3] = {p.x, p.y, p.z};
-      std::int32_t is_valid[simd::lanes];
-      simd::store(is_valid, keep(valid, simd::all_int(1)));
+      const simd::Packing packing = simd::packing(valid);
       for (std::size_t axis = first_; axis < end_; ++axis) {
         const simd::F32 slice = (v[axis] - low[axis]) / width[axis];
-        std::int32_t slice_of[simd::lanes];
-        simd::store(slice_of, truncate_to_int(min(max(slice, simd::all(0.0f)), simd::all(slices - 1.0f))));
-        for (std::size_t lane = 0; lane < simd::lanes; ++lane) {
-          Index& points = at(axis)[slice_of[lane]];
-          points = static_cast<Index>(points + static_cast<Index>(is_valid[lane]));
-        }
+        std::uint32_t slice_of[simd::lanes];
+        simd::store(slice_of, truncate_to_int(min(max(slice, simd::all(0.0f)), simd::all(slices - 1.0f))), packing);
+        for (std::uint32_t k = 0; k < packing.count; ++k) ++at(axis)[slice_of[k]];
       }
     });
   }
