@@ -1,4 +1,4 @@
-// Instructions per neighbor of single stages: as callgrind counted them, as they are on record, and how they differ.
+// Instructions of single stages: as callgrind counted them, as they are on record, and how they differ.
 #pragma once
 
 #include <istream>
