@@ -20,12 +20,13 @@ if [ "$1" = --compile ]; then
   case $name in
     input_*)
       exec "$@" -ffp-contract=off -r -o "$program.o" \
-        bench/tools/golden/case.cpp bench/tools/golden/array.cpp bench/tools/scene/tabletop.cpp
+        bench/tools/golden/case.cpp bench/tools/golden/array.cpp bench/tools/golden/known_arrays.cpp \
+        bench/tools/scene/tabletop.cpp
       ;;
     *_neon) input=$directory/input_neon.o ;;
     *) input=$directory/input_x86.o ;;
   esac
-  exec "$@" -o "$program" tests/bits/hashes.cpp bench/tools/golden/known_arrays.cpp "$input"
+  exec "$@" -o "$program" tests/bits/hashes.cpp "$input"
 fi
 
 directory=$1

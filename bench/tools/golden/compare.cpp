@@ -6,6 +6,7 @@
 
 #include "compare_parts.hpp"
 #include "compare_rows.hpp"
+#include "descriptors.hpp"
 #include "frames.hpp"
 #include "known_arrays.hpp"
 #include "neighbors.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "case.hpp"
-#include "known_arrays.hpp"
+#include "descriptors.hpp"
 #include "report.hpp"
 
 namespace shortshot_bench::golden {

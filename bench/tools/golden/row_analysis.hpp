@@ -6,7 +6,7 @@
 #include <string>
 
 #include "case.hpp"
-#include "known_arrays.hpp"
+#include "descriptors.hpp"
 
 namespace shortshot_bench::golden {
 

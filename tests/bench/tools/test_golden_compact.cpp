@@ -12,7 +12,7 @@
 #include "golden_outcome.hpp"
 #include "tools/golden/case.hpp"
 #include "tools/golden/compare.hpp"
-#include "tools/golden/known_arrays.hpp"
+#include "tools/golden/descriptors.hpp"
 #include "tools/golden/tool.hpp"
 
 namespace test_golden_compact {
