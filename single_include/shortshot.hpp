@@ -84,11 +84,10 @@
 #pragma push_macro("I")
 #undef I
 
-// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initializer, no
-// libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
-// <type_traits> and <utility> of the standard library.
-#ifndef SHORTSHOT_KERNEL_HPP
-#define SHORTSHOT_KERNEL_HPP
+// shortshot/dispatch/hot_kernel.hpp: the part of the kernel in which hosts spend their time: what kernel_for_avx2.hpp
+// reads once more. All of it has include guards, which can be forgotten (forget_kernel.hpp).
+#ifndef SHORTSHOT_DISPATCH_HOT_KERNEL_HPP
+#define SHORTSHOT_DISPATCH_HOT_KERNEL_HPP
 
 // shortshot/descriptor/compact.hpp: compact descriptors. They find more than the published ones in a fraction of the
 // bytes: one pass of soft votes in SHOT's frame, nothing learned.
@@ -116,7 +115,9 @@
 #ifndef SHORTSHOT_DESCRIPTOR_COMPACT_HPP
 #define SHORTSHOT_DESCRIPTOR_COMPACT_HPP
 
-// shortshot/config.hpp: the macros the library sets. There is none for you to set: options are template parameters.
+// shortshot/config.hpp: the macros the library sets. Options are template parameters. There is one macro for you to
+// set, which changes no result: with -DSHORTSHOT_NO_DISPATCH the library keeps to the instructions that the compiler
+// was told of (dispatch/kernel_for_avx2.hpp).
 //
 // Everything in `shortshot` (for users), `shortshot::extend` (for those who add a signal, a voting rule, a search or a
 // frame) and `shortshot::detail` (for nobody) lies in one of two inline namespaces:
@@ -191,11 +192,12 @@ inline constexpr int version_patch = SHORTSHOT_VERSION_PATCH;
 
 #define SHORTSHOT_TYPES SHORTSHOT_JOIN_VERSION(SHORTSHOT_VERSION_MAJOR, SHORTSHOT_VERSION_MINOR)
 
-#define SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h, i) types##_##a##b##c##d##e##f##g##h##i
-#define SHORTSHOT_JOIN_CODE(types, a, b, c, d, e, f, g, h, i) SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h, i)
+#define SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h, i, j) types##_##a##b##c##d##e##f##g##h##i##j
+#define SHORTSHOT_JOIN_CODE(types, a, b, c, d, e, f, g, h, i, j) \
+  SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h, i, j)
 
 // Every flag that lets the compiler use other instructions, or makes it compute or inline otherwise, is a bit of the
-// name: `v0_1_c00000000` is version 0.1 for plain x86-64.
+// name: `v0_1_c000000000` is version 0.1 for plain x86-64.
 #define SHORTSHOT_CODE                                                                                                 \
   SHORTSHOT_JOIN_CODE(                                                                                                 \
       SHORTSHOT_TYPES, SHORTSHOT_DIGIT(__SSE__, __SSE2__, __SSE3__, __SSSE3__),                                        \
@@ -205,7 +207,8 @@ inline constexpr int version_patch = SHORTSHOT_VERSION_PATCH;
       SHORTSHOT_DIGIT(__AVX512CD__, __AVX512VNNI__, __AVXVNNI__, __FMA4__),                                            \
       SHORTSHOT_DIGIT(__ARM_NEON, __ARM_FEATURE_FMA, __ARM_FEATURE_DSP, __ARM_FEATURE_DOTPROD),                        \
       SHORTSHOT_DIGIT(__ARM_FEATURE_SVE, __ARM_FEATURE_MVE, __FAST_MATH__, __OPTIMIZE_SIZE__),                         \
-      SHORTSHOT_DIGIT(__RECIPROCAL_MATH__, __ASSOCIATIVE_MATH__, __NO_SIGNED_ZEROS__, __FINITE_MATH_ONLY__))
+      SHORTSHOT_DIGIT(__RECIPROCAL_MATH__, __ASSOCIATIVE_MATH__, __NO_SIGNED_ZEROS__, __FINITE_MATH_ONLY__),           \
+      SHORTSHOT_DIGIT(SHORTSHOT_NO_DISPATCH, 0, 0, 0))
 
 // Set by us, too: functions, and lambdas, that are inlined for speed, but left to the compiler where it was asked for
 // small code (-Os).
@@ -263,6 +266,7 @@ using Quad = std::int32_t __attribute__((vector_size(16)));
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd
+
 #endif  // SHORTSHOT_BASE_QUAD_HPP
 
 // shortshot/base/unfused.hpp: no a * b + c in one rounding, whatever the compiler was told.
@@ -303,15 +307,20 @@ template <class Float>
   return __builtin_is_constant_evaluated() ? product : detail::hidden(product);
 }
 
+[[nodiscard]] inline float dot(const float (&a)[3], const float (&b)[3]) noexcept {
+  return (unfused(a[0] * b[0]) + unfused(a[2] * b[2])) + unfused(a[1] * b[1]);
+}
+
 /// 1.5 * 2^23: a float below 2^22 to which this is added, and from which it is taken again, has been rounded to a whole
 /// number.
 inline constexpr float whole_numbers = 12582912.0f;
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend
+
 #endif  // SHORTSHOT_BASE_UNFUSED_HPP
 
-#if defined(__AVX2__)
+#if defined(__AVX2__) || defined(SHORTSHOT_FOR_AVX2)
 
 // shortshot/base/simd_avx2.hpp: the lane shim on AVX2, 8 lanes. Included by simd.hpp, which says what it must do.
 #ifndef SHORTSHOT_BASE_SIMD_AVX2_HPP
@@ -514,6 +523,7 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd
+
 #endif  // SHORTSHOT_BASE_SIMD_AVX2_HPP
 #elif defined(__SSE2__)
 
@@ -701,6 +711,7 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd
+
 #endif  // SHORTSHOT_BASE_SIMD_SSE2_HPP
 #elif defined(__aarch64__)
 
@@ -888,6 +899,7 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd
+
 #endif  // SHORTSHOT_BASE_SIMD_NEON_HPP
 #else
 
@@ -1044,6 +1056,7 @@ inline void store(std::uint32_t* p, I32 a, const Packing&) noexcept { store(p, a
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd
+
 #endif  // SHORTSHOT_BASE_SIMD_SCALAR_HPP
 #endif
 
@@ -1084,6 +1097,7 @@ template <class Function>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd
+
 #endif  // SHORTSHOT_BASE_SIMD_HPP
 
 // shortshot/base/unroll.hpp: loops of a length known while compiling, written out. Compilers do not unroll them at -O2,
@@ -1127,6 +1141,7 @@ SHORTSHOT_INLINE void each(Function f) noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_BASE_UNROLL_HPP
 
 namespace shortshot::extend::math {
@@ -1228,6 +1243,7 @@ inline constexpr float least_normal = 1.17549435e-38f;
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::math
+
 #endif  // SHORTSHOT_BASE_MATH_HPP
 
 // shortshot/cloud/point_lanes.hpp: the points of one register.
@@ -1355,6 +1371,7 @@ inline namespace SHORTSHOT_CODE {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_STATUS_HPP
 
 namespace shortshot {
@@ -1533,6 +1550,7 @@ template <class Scalar>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_CLOUD_CLOUD_HPP
 
 // shortshot/cloud/read.hpp: what a view says of one point.
@@ -1638,6 +1656,7 @@ void for_each_valid(const CloudView& cloud, Function f) {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend
+
 #endif  // SHORTSHOT_CLOUD_READ_HPP
 
 namespace shortshot::extend {
@@ -1697,6 +1716,7 @@ template <class Function>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend
+
 #endif  // SHORTSHOT_CLOUD_POINT_LANES_HPP
 
 // shortshot/search/neighborhood.hpp: the neighbors of one key point, in memory that somebody else owns.
@@ -1741,6 +1761,7 @@ inline namespace SHORTSHOT_CODE {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_SEARCH_RADIUS_HPP
 
 namespace shortshot {
@@ -1854,6 +1875,7 @@ using Collector = std::conditional_t<detail::small_code, Neighbors&, Neighbors>;
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend
+
 #endif  // SHORTSHOT_SEARCH_NEIGHBORHOOD_HPP
 
 // shortshot/descriptor/axis.hpp: one axis of a part: its cells, and what lies beyond them.
@@ -1893,6 +1915,7 @@ struct Axis {
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::extend
+
 #endif  // SHORTSHOT_DESCRIPTOR_AXIS_HPP
 
 namespace shortshot::extend {
@@ -2051,6 +2074,7 @@ struct HeightCells : PublishedCells {
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_DESCRIPTOR_CONVENTIONS_HPP
 
 // shortshot/descriptor/descriptor.hpp: what a descriptor is made of. Pure types: sizes, offsets and layout are
@@ -2092,6 +2116,7 @@ inline namespace SHORTSHOT_CODE {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_BASE_FIXED_POINT_HPP
 
 // shortshot/base/symmetric_eigen.hpp: eigenvectors of symmetric 3x3 and 4x4 matrices, in float, with the same bits
@@ -2246,6 +2271,7 @@ template <int N = 3>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_BASE_SYMMETRIC_EIGEN_HPP
 
 // shortshot/frame/rank_by_distance.hpp: the neighbors' order by distance, without sorting.
@@ -2304,6 +2330,7 @@ template <class Neighbors>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_FRAME_RANK_BY_DISTANCE_HPP
 
 // shortshot/frame/viewpoint.hpp: to which side of a surface normals and frames are turned.
@@ -2367,6 +2394,7 @@ template <class Neighbors>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_FRAME_VIEWPOINT_HPP
 
 namespace shortshot {
@@ -2392,16 +2420,6 @@ inline constexpr int min_frame_neighbors = 5;
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
-
-namespace shortshot::extend {
-inline namespace SHORTSHOT_CODE {
-
-[[nodiscard]] inline float dot(const float (&a)[3], const float (&b)[3]) noexcept {
-  return (unfused(a[0] * b[0]) + unfused(a[2] * b[2])) + unfused(a[1] * b[1]);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::extend
 
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
@@ -2649,6 +2667,7 @@ template <class Neighbors>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_FRAME_FRAME_HPP
 
 // shortshot/descriptor/signals.hpp: what a cell's histogram is about. A signal is one struct: its name, its bins, where
@@ -2716,6 +2735,7 @@ template <class Index>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_CLOUD_KEYPOINT_HPP
 
 namespace shortshot {
@@ -2744,6 +2764,7 @@ struct CloudIntensities {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_CLOUD_INTENSITY_SOURCE_HPP
 
 // shortshot/cloud/normal_source.hpp: where a descriptor's normals come from.
@@ -2772,6 +2793,7 @@ struct CloudNormals {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_CLOUD_NORMAL_SOURCE_HPP
 
 // shortshot/color/color_source.hpp: where a descriptor's colors come from: the cloud's bytes, or an array converted
@@ -2835,6 +2857,7 @@ inline constexpr FixedPower published_root{
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_COLOR_FIXED_POWER_HPP
 
 // shortshot/color/srgb.hpp: sRGB's gamma undone, by a table of 1 KB or, where code shall be small, without: the same
@@ -2919,6 +2942,7 @@ inline constexpr FixedPower srgb_root{
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_COLOR_SRGB_HPP
 
 namespace shortshot {
@@ -3073,6 +3097,7 @@ inline namespace SHORTSHOT_CODE {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_COLOR_LAB_HPP
 
 // shortshot/color/packed_lab.hpp: a CIELAB color in 32 bits, for arrays with one color per point.
@@ -3132,6 +3157,7 @@ class PackedLab {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_COLOR_PACKED_LAB_HPP
 
 namespace shortshot::detail {
@@ -3276,6 +3302,7 @@ template <class LabRule, class Color>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_COLOR_COLOR_SOURCE_HPP
 
 // shortshot/descriptor/source_set.hpp: where the values of a descriptor's signals come from, all of them in one object.
@@ -3382,6 +3409,7 @@ template <class... Kinds>
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_DESCRIPTOR_SOURCE_SET_HPP
 
 namespace shortshot::extend {
@@ -3642,6 +3670,7 @@ template <class Signal, class... Signals>
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_DESCRIPTOR_SIGNALS_HPP
 
 // shortshot/descriptor/voting.hpp: how one point votes for neighboring bins, written once over N axes: SHOT's
@@ -3763,6 +3792,7 @@ template <int Axes>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend
+
 #endif  // SHORTSHOT_DESCRIPTOR_INTERPOLATION_HPP
 
 namespace shortshot {
@@ -3932,6 +3962,7 @@ struct MultilinearVoting {
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_DESCRIPTOR_VOTING_HPP
 
 namespace shortshot::detail {
@@ -3984,6 +4015,7 @@ struct PartnersGetOwnShare<Voting, std::void_t<decltype(Voting::partners_get_own
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_DESCRIPTOR_CONCEPTS_HPP
 
 // shortshot/descriptor/exact_shells.hpp: distances that fall on the right side of a shell's border.
@@ -4090,6 +4122,7 @@ template <class Borders>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_DESCRIPTOR_EXACT_SHELLS_HPP
 
 // shortshot/descriptor/finish_rules.hpp: how the sums of a part's cells become its values, and what the part weighs
@@ -4168,6 +4201,7 @@ struct SignedRoots {
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_DESCRIPTOR_FINISH_RULES_HPP
 
 // shortshot/descriptor/spherical_grid.hpp: the spherical grid of a part, and how wide its shells are.
@@ -4230,6 +4264,7 @@ struct LogRadius {
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_DESCRIPTOR_SPHERICAL_GRID_HPP
 
 namespace shortshot::detail {
@@ -4505,6 +4540,7 @@ static_assert(Ssh32::size == 32 && Ssh96::size == 96 && Scsh336::size == 336 && 
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_DESCRIPTOR_DESCRIPTOR_HPP
 
 namespace shortshot {
@@ -4585,114 +4621,8 @@ static_assert(ShapeColor95::size == 190 && ShapeColor32::size == 64 && RoomColor
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_DESCRIPTOR_COMPACT_HPP
-
-// shortshot/frame/fixed_lamp_frame.hpp: frames whose x axis points to where a surface is brighter. A function of its
-// own: who does not call it has no byte of it.
-#ifndef SHORTSHOT_FRAME_FIXED_LAMP_FRAME_HPP
-#define SHORTSHOT_FRAME_FIXED_LAMP_FRAME_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// Sums over the members, as integers: of weights w = 1 - |v| / R, of w L, and of both times 4 v / R (so that no term
-/// is above the scale), with L from 0 to 1.
-struct BrightnessSums {
-  float weight, light;
-  float offset[3], light_offset[3];
-};
-
-template <class Neighbors, class Colors>
-[[nodiscard]] inline BrightnessSums brightness_sums(const Neighbors& n, const Colors& colors, Radius radius) noexcept {
-  using simd::all;
-  using simd::F32;
-  const F32 zero = all(0.0f);
-  const F32 inverse = all(1.0f / radius.value);
-  const F32 scale = all(fixed_point_scale(n.size));
-  simd::I32 weights{}, lights{}, offsets[3] = {}, light_offsets[3] = {};
-  for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
-    const NeighborLanes v = load_neighbors(n, i);
-    std::uint32_t index[simd::lanes];
-    simd::store(index, v.index);
-    const F32 own = extend::colors_at(colors, index).L;
-    const F32 light = simd::max(simd::min(own, all(100.0f)), zero) * all(0.01f);
-    const simd::Mask member = within(v, radius) & (simd::abs(v.dx) + simd::abs(v.dy) + simd::abs(v.dz) > zero);
-    const F32 weight = keep(member, (all(1.0f) - simd::sqrt(v.d2) * inverse) * scale);
-    weights = weights + round_to_int(weight);
-    lights = lights + round_to_int(weight * light);
-    const F32 at[3] = {v.dx, v.dy, v.dz};
-    each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
-      const F32 weighted = weight * (at[k] * inverse * all(4.0f));
-      offsets[k] = offsets[k] + round_to_int(weighted);
-      light_offsets[k] = light_offsets[k] + round_to_int(weighted * light);
-    });
-  }
-  BrightnessSums sums{static_cast<float>(sum(weights)), static_cast<float>(sum(lights)), {}, {}};
-  each<3>([&](auto k) {
-    sums.offset[k] = static_cast<float>(sum(offsets[k]));
-    sums.light_offset[k] = static_cast<float>(sum(light_offsets[k]));
-  });
-  return sums;
-}
-
-/// Turns x and y of a frame about z, until x points to where it is brighter; if that is nowhere, they stay.
-template <class Neighbors, class Colors>
-inline void turn_to_brightness(const Neighbors& n, const Colors& colors, Radius radius, Frame& frame) noexcept {
-  const BrightnessSums sums = brightness_sums(n, colors, radius);
-  if (!(sums.weight > 0.0f)) return;
-  const float mean = sums.light / sums.weight;
-  float gradient[3], tangent[3];
-  for (int k = 0; k < 3; ++k) gradient[k] = sums.light_offset[k] - unfused(mean * sums.offset[k]);
-  const float upwards = dot(gradient, frame.z);
-  for (int k = 0; k < 3; ++k) tangent[k] = gradient[k] - unfused(upwards * frame.z[k]);
-
-  // What the rounding of the members to integers may have made of no gradient; and of one straight along z.
-  const float resolution = unfused(8.0f * static_cast<float>(n.size));
-  const float length = simd::sqrt(dot(tangent, tangent));
-  if (!(length > resolution + unfused(1e-3f * simd::sqrt(dot(gradient, gradient))))) return;
-  for (int k = 0; k < 3; ++k) frame.x[k] = tangent[k] / length;
-  set_y(frame);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// A local reference frame for things that stay under their lamp: z is that of estimate_frame(), x points to where the
-/// surface is brighter, y = z cross x. **A lamp that moves turns it**, and so do shadows. Where two views of an object
-/// have the same light it is found again more often than SHOT's frame, whose x follows the shape alone; in rooms, and
-/// for recognition, less often. (In a study with the means of 8 cells' colors, 80 of 100 key points were found again
-/// under the same lamp, and 57 after it had moved.) Its brightness is CIELAB's L: a gain of all channels changes
-/// little.
-///
-/// x is the projection on the tangent plane, of length 1, of the sum of (R - |v|) (L - mean L) v over the members,
-/// where the mean has the weights R - |v| too. If that is 0 but for rounding (all colors are equal, or the gradient is
-/// along z), x and y are those of estimate_frame().
-///
-/// `colors`     of the neighbors by index: RgbColors, LabColors, PackedColors or what else gives a Lab; the reference
-///              is not looked at
-/// `radius`     the frame's own; it may be smaller than the one the neighborhood was gathered with
-/// `viewpoint`  turns z; compact descriptors want one
-///
-/// Statuses: missing_colors, and those of estimate_frame(); `frame` is zeroed then. No allocation, reentrant. The
-/// result does not depend on the order of the neighbors, and has the same bits on every machine. describe() and
-/// describe_at() take the frame, extract() one for each key point: "How to add a frame" in include/shortshot/README.md
-/// has the loop.
-template <class Neighbors, class Colors>
-[[nodiscard]] inline Status estimate_frame_under_fixed_lamp(const Neighbors& n, const Colors& colors, Radius radius,
-                                                            Frame& frame, const Viewpoint& viewpoint = {}) noexcept {
-  frame = Frame{};
-  Status status = colors.status();
-  if (status == Status::ok) status = estimate_frame(n, radius, frame, viewpoint);
-  if (status == Status::ok) detail::turn_to_brightness(n, colors, radius, frame);
-  return status;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_FRAME_FIXED_LAMP_FRAME_HPP
 
 // shortshot/frame/normal.hpp: the surface normal of a gathered neighborhood.
 #ifndef SHORTSHOT_FRAME_NORMAL_HPP
@@ -4877,6 +4807,7 @@ template <class Neighbors>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_FRAME_NORMAL_HPP
 
 // shortshot/kernel/describe_at.hpp: one key point from cloud to descriptor: search, frame and kernel in one call.
@@ -4929,6 +4860,7 @@ template <class Search>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_SEARCH_SEARCH_HPP
 
 // shortshot/search/workspace.hpp: the memory of a neighborhood, sized at compile time and owned by the caller.
@@ -4985,6 +4917,7 @@ template <std::size_t MaxNeighbors, class Index>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_SEARCH_WORKSPACE_HPP
 
 // shortshot/kernel/describe.hpp: the kernel. One gathered neighborhood and a frame in, one descriptor out.
@@ -5038,6 +4971,7 @@ struct Chunk {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_KERNEL_CHUNK_HPP
 
 // shortshot/kernel/measure_signals.hpp: the values of a descriptor's signals, each in a row of the chunk. Most are
@@ -5163,6 +5097,7 @@ inline void measure_all_by_index(SignalList<Signals...>, const Sources& sources,
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_KERNEL_MEASURE_SIGNALS_HPP
 
 namespace shortshot::detail {
@@ -5280,6 +5215,7 @@ template <class Cells, class Borders, class Neighbors, class Signals, class Chun
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_KERNEL_TO_SPHERICAL_HPP
 
 // shortshot/kernel/vote_shares.hpp: from where a chunk's neighbors lie to their shares among the cells of a part, and
@@ -5356,6 +5292,7 @@ template <class Voting, class Part, class Chunk>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_KERNEL_VOTE_SHARES_HPP
 
 namespace shortshot::detail {
@@ -5576,6 +5513,7 @@ constexpr std::size_t scratch_bytes(Descriptor<Voting, Parts...>) noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_KERNEL_ACCUMULATE_HPP
 
 // shortshot/kernel/accumulate_means.hpp: votes for a part's means: those of the cells themselves, and votes times the
@@ -5642,6 +5580,7 @@ inline void divide_by_votes(float* values, const float* weights) noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_KERNEL_ACCUMULATE_MEANS_HPP
 
 // shortshot/kernel/finish.hpp: from the integers of all votes to values of L2 norm 1.
@@ -5714,6 +5653,7 @@ template <class Voting, class... Parts, std::size_t... I>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_KERNEL_FINISH_HPP
 
 // shortshot/kernel/mean_color.hpp: the mean of a neighborhood's colors, with which signals of MeanColor compare.
@@ -5787,6 +5727,7 @@ template <class LabRule, class Neighbors, class First, class... Others>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_KERNEL_MEAN_COLOR_HPP
 
 // shortshot/kernel/soft_cells.hpp: soft votes where there is one lane: each to its cell. For speed every part has code
@@ -5916,6 +5857,7 @@ constexpr int quads_of() noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_KERNEL_SOFT_LAYOUT_HPP
 
 // shortshot/kernel/soft_shares.hpp: how points are shared among the cells around them where votes are soft. A point
@@ -6027,6 +5969,7 @@ struct SoftShares {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_KERNEL_SOFT_SHARES_HPP
 
 namespace shortshot::detail {
@@ -6205,6 +6148,7 @@ template <class Voting, class... Parts, std::size_t... I, class Chunk>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_KERNEL_SOFT_CELLS_HPP
 
 // shortshot/kernel/soft_votes.hpp: multilinear votes for parts of compact descriptors, a register of neighbors at a
@@ -6354,6 +6298,7 @@ constexpr std::size_t soft_scratch_bytes() noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_KERNEL_SOFT_VOTES_HPP
 
 namespace shortshot::detail {
@@ -6503,6 +6448,7 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_KERNEL_DESCRIBE_HPP
 
 // shortshot/kernel/support.hpp: what is described around a key point.
@@ -6536,6 +6482,7 @@ inline namespace SHORTSHOT_CODE {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_KERNEL_SUPPORT_HPP
 
 namespace shortshot {
@@ -6719,126 +6666,8 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, c
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
 #endif  // SHORTSHOT_KERNEL_DESCRIBE_AT_HPP
-
-// shortshot/search/brute.hpp: neighbors by looking at every point. No index, no memory: the reference, and the choice
-// for a handful of key points in a small cloud.
-#ifndef SHORTSHOT_SEARCH_BRUTE_HPP
-#define SHORTSHOT_SEARCH_BRUTE_HPP
-
-// shortshot/search/offer.hpp: how a search fills a neighborhood, and the one rule of who belongs to it.
-#ifndef SHORTSHOT_SEARCH_OFFER_HPP
-#define SHORTSHOT_SEARCH_OFFER_HPP
-
-// shortshot/base/quiet.hpp: comparisons with NaN that are no invalid operation, for programs that trap those.
-//
-// What is promised: FE_INVALID and FE_DIVBYZERO are raised by no function of the library, FE_OVERFLOW only where points
-// lie farther apart than 1e19. Arithmetic with NaN is quiet by itself; <, min() and max() are not.
-#ifndef SHORTSHOT_BASE_QUIET_HPP
-#define SHORTSHOT_BASE_QUIET_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// a < b, false with NaN. Where comparisons are calls, there is nothing to trap, and the quiet one would be two.
-[[nodiscard, gnu::always_inline]] inline bool is_below(float a, float b) noexcept {
-#if defined(__SSE__) || defined(__aarch64__)
-  return __builtin_isless(a, b);
-#else
-  return a < b;
-#endif
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_BASE_QUIET_HPP
-
-namespace shortshot::extend {
-inline namespace SHORTSHOT_CODE {
-
-/// To be called by a search before it offers the first point: an empty neighborhood around `center`.
-template <class Neighbors>
-inline void clear(Neighbors& out, const Point& center) noexcept {
-  out.center = center;
-  out.size = 0;
-  out.found = 0;
-}
-
-/// Write down neighbor `i`.
-inline void put(Neighborhood& n, std::uint32_t i, const Neighbor& v) noexcept {
-  n.dx[i] = v.dx;
-  n.dy[i] = v.dy;
-  n.dz[i] = v.dz;
-  n.d2[i] = v.d2;
-  n.index[i] = v.index;
-}
-template <class Index>
-inline void put(CompactNeighborhood<Index>& n, std::uint32_t i, const Neighbor& v) noexcept {
-  n.index[i] = static_cast<Index>(v.index);
-}
-
-/// Offer one point of the cloud to the neighborhood: THE membership rule, for every search. A point is a neighbor if
-/// its float squared distance is strictly below `radius_squared`; written so that NaN is refused.
-template <class Neighbors>
-inline void offer(Neighbors& out, const Point& p, std::uint32_t index, const Point& center,
-                  float radius_squared) noexcept {
-  const Neighbor v = neighbor_from(center, p, index);
-  if (!detail::is_below(v.d2, radius_squared)) return;
-  if (out.size < out.capacity) put(out, out.size++, v);
-  ++out.found;
-}
-
-/// To be returned by a search after it has offered the last point.
-template <class Neighbors>
-[[nodiscard]] inline Status outcome(const Neighbors& out) noexcept {
-  return out.found > out.capacity ? Status::too_many_neighbors : Status::ok;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::extend
-#endif  // SHORTSHOT_SEARCH_OFFER_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// A search (search.hpp) without an index.
-class BruteSearch {
- public:
-  explicit BruteSearch(const CloudView& cloud) noexcept
-      : points_(cloud.points), size_(cloud.size), status_(validate(cloud)) {}
-
-  [[nodiscard]] Status status() const noexcept { return status_; }
-
-  [[nodiscard]] std::size_t cloud_size() const noexcept { return size_; }
-
-  template <class Neighbors>
-  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
-    extend::clear(out, center);
-    if (status_ != Status::ok) return status_;
-    const Point at = center;  // a local: what is stored cannot change it
-    extend::Collector<Neighbors> found = out;
-    for (std::size_t i = 0; i < size_; ++i) {
-      extend::offer(found, extend::read(points_, i), static_cast<std::uint32_t>(i), at, radius.squared);
-    }
-    out = found;
-    return extend::outcome(out);
-  }
-
- private:
-  Float3Channel points_;  // of the cloud, which is borrowed
-  std::size_t size_;
-  Status status_;
-};
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_SEARCH_BRUTE_HPP
-
-// shortshot/search/cell_index.hpp: the fixed-radius grid. Points are counting-sorted into cubic cells once per cloud; a
-// query looks at runs of neighboring cells. Ten times faster to build than a tree, faster to search, and of bounded
-// memory.
-#ifndef SHORTSHOT_SEARCH_CELL_INDEX_HPP
-#define SHORTSHOT_SEARCH_CELL_INDEX_HPP
 
 // shortshot/search/cell_sort.hpp: a cloud's points sorted into the cells of a box, and the search among them.
 #ifndef SHORTSHOT_SEARCH_CELL_SORT_HPP
@@ -7091,7 +6920,82 @@ inline void fit_box(const Extent& extent, float cell_size, std::size_t capacity,
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_SEARCH_CELL_BOX_HPP
+
+// shortshot/search/offer.hpp: how a search fills a neighborhood, and the one rule of who belongs to it.
+#ifndef SHORTSHOT_SEARCH_OFFER_HPP
+#define SHORTSHOT_SEARCH_OFFER_HPP
+
+// shortshot/base/quiet.hpp: comparisons with NaN that are no invalid operation, for programs that trap those.
+//
+// What is promised: FE_INVALID and FE_DIVBYZERO are raised by no function of the library, FE_OVERFLOW only where points
+// lie farther apart than 1e19. Arithmetic with NaN is quiet by itself; <, min() and max() are not.
+#ifndef SHORTSHOT_BASE_QUIET_HPP
+#define SHORTSHOT_BASE_QUIET_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// a < b, false with NaN. Where comparisons are calls, there is nothing to trap, and the quiet one would be two.
+[[nodiscard, gnu::always_inline]] inline bool is_below(float a, float b) noexcept {
+#if defined(__SSE__) || defined(__aarch64__)
+  return __builtin_isless(a, b);
+#else
+  return a < b;
+#endif
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_BASE_QUIET_HPP
+
+namespace shortshot::extend {
+inline namespace SHORTSHOT_CODE {
+
+/// To be called by a search before it offers the first point: an empty neighborhood around `center`.
+template <class Neighbors>
+inline void clear(Neighbors& out, const Point& center) noexcept {
+  out.center = center;
+  out.size = 0;
+  out.found = 0;
+}
+
+/// Write down neighbor `i`.
+inline void put(Neighborhood& n, std::uint32_t i, const Neighbor& v) noexcept {
+  n.dx[i] = v.dx;
+  n.dy[i] = v.dy;
+  n.dz[i] = v.dz;
+  n.d2[i] = v.d2;
+  n.index[i] = v.index;
+}
+template <class Index>
+inline void put(CompactNeighborhood<Index>& n, std::uint32_t i, const Neighbor& v) noexcept {
+  n.index[i] = static_cast<Index>(v.index);
+}
+
+/// Offer one point of the cloud to the neighborhood: THE membership rule, for every search. A point is a neighbor if
+/// its float squared distance is strictly below `radius_squared`; written so that NaN is refused.
+template <class Neighbors>
+inline void offer(Neighbors& out, const Point& p, std::uint32_t index, const Point& center,
+                  float radius_squared) noexcept {
+  const Neighbor v = neighbor_from(center, p, index);
+  if (!detail::is_below(v.d2, radius_squared)) return;
+  if (out.size < out.capacity) put(out, out.size++, v);
+  ++out.found;
+}
+
+/// To be returned by a search after it has offered the last point.
+template <class Neighbors>
+[[nodiscard]] inline Status outcome(const Neighbors& out) noexcept {
+  return out.found > out.capacity ? Status::too_many_neighbors : Status::ok;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend
+
+#endif  // SHORTSHOT_SEARCH_OFFER_HPP
 
 // shortshot/search/offer_run.hpp: a run of points offered to a neighborhood, a register of them at a time.
 #ifndef SHORTSHOT_SEARCH_OFFER_RUN_HPP
@@ -7175,6 +7079,7 @@ inline void offer_run(const SortedPoints<Index>& points, std::size_t i, std::siz
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_SEARCH_OFFER_RUN_HPP
 
 namespace shortshot {
@@ -7423,9 +7328,180 @@ class Grid {
   Status status_;
 };
 
+/// A grid's gather() as a function of its own.
+template <class Index, class Neighbors>
+[[nodiscard]] inline Status gather_from(const Grid<Index>& grid, const GridContents<Index>& contents,
+                                        const Point& center, Radius radius, Neighbors& out) noexcept {
+  return grid.gather(contents, center, radius, out);
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
 #endif  // SHORTSHOT_SEARCH_CELL_SORT_HPP
+
+#endif  // SHORTSHOT_DISPATCH_HOT_KERNEL_HPP
+#if !defined(SHORTSHOT_FOR_AVX2)  // the single header reads itself up to here (dispatch/kernel_for_avx2.hpp)
+
+// shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initializer, no
+// libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
+// <type_traits> and <utility> of the standard library.
+#ifndef SHORTSHOT_KERNEL_HPP
+#define SHORTSHOT_KERNEL_HPP
+
+// shortshot/frame/fixed_lamp_frame.hpp: frames whose x axis points to where a surface is brighter. A function of its
+// own: who does not call it has no byte of it.
+#ifndef SHORTSHOT_FRAME_FIXED_LAMP_FRAME_HPP
+#define SHORTSHOT_FRAME_FIXED_LAMP_FRAME_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Sums over the members, as integers: of weights w = 1 - |v| / R, of w L, and of both times 4 v / R (so that no term
+/// is above the scale), with L from 0 to 1.
+struct BrightnessSums {
+  float weight, light;
+  float offset[3], light_offset[3];
+};
+
+template <class Neighbors, class Colors>
+[[nodiscard]] inline BrightnessSums brightness_sums(const Neighbors& n, const Colors& colors, Radius radius) noexcept {
+  using simd::all;
+  using simd::F32;
+  const F32 zero = all(0.0f);
+  const F32 inverse = all(1.0f / radius.value);
+  const F32 scale = all(fixed_point_scale(n.size));
+  simd::I32 weights{}, lights{}, offsets[3] = {}, light_offsets[3] = {};
+  for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
+    const NeighborLanes v = load_neighbors(n, i);
+    std::uint32_t index[simd::lanes];
+    simd::store(index, v.index);
+    const F32 own = extend::colors_at(colors, index).L;
+    const F32 light = simd::max(simd::min(own, all(100.0f)), zero) * all(0.01f);
+    const simd::Mask member = within(v, radius) & (simd::abs(v.dx) + simd::abs(v.dy) + simd::abs(v.dz) > zero);
+    const F32 weight = keep(member, (all(1.0f) - simd::sqrt(v.d2) * inverse) * scale);
+    weights = weights + round_to_int(weight);
+    lights = lights + round_to_int(weight * light);
+    const F32 at[3] = {v.dx, v.dy, v.dz};
+    each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      const F32 weighted = weight * (at[k] * inverse * all(4.0f));
+      offsets[k] = offsets[k] + round_to_int(weighted);
+      light_offsets[k] = light_offsets[k] + round_to_int(weighted * light);
+    });
+  }
+  BrightnessSums sums{static_cast<float>(sum(weights)), static_cast<float>(sum(lights)), {}, {}};
+  each<3>([&](auto k) {
+    sums.offset[k] = static_cast<float>(sum(offsets[k]));
+    sums.light_offset[k] = static_cast<float>(sum(light_offsets[k]));
+  });
+  return sums;
+}
+
+/// Turns x and y of a frame about z, until x points to where it is brighter; if that is nowhere, they stay.
+template <class Neighbors, class Colors>
+inline void turn_to_brightness(const Neighbors& n, const Colors& colors, Radius radius, Frame& frame) noexcept {
+  const BrightnessSums sums = brightness_sums(n, colors, radius);
+  if (!(sums.weight > 0.0f)) return;
+  const float mean = sums.light / sums.weight;
+  float gradient[3], tangent[3];
+  for (int k = 0; k < 3; ++k) gradient[k] = sums.light_offset[k] - unfused(mean * sums.offset[k]);
+  const float upwards = dot(gradient, frame.z);
+  for (int k = 0; k < 3; ++k) tangent[k] = gradient[k] - unfused(upwards * frame.z[k]);
+
+  // What the rounding of the members to integers may have made of no gradient; and of one straight along z.
+  const float resolution = unfused(8.0f * static_cast<float>(n.size));
+  const float length = simd::sqrt(dot(tangent, tangent));
+  if (!(length > resolution + unfused(1e-3f * simd::sqrt(dot(gradient, gradient))))) return;
+  for (int k = 0; k < 3; ++k) frame.x[k] = tangent[k] / length;
+  set_y(frame);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// A local reference frame for things that stay under their lamp: z is that of estimate_frame(), x points to where the
+/// surface is brighter, y = z cross x. **A lamp that moves turns it**, and so do shadows. Where two views of an object
+/// have the same light it is found again more often than SHOT's frame, whose x follows the shape alone; in rooms, and
+/// for recognition, less often. (In a study with the means of 8 cells' colors, 80 of 100 key points were found again
+/// under the same lamp, and 57 after it had moved.) Its brightness is CIELAB's L: a gain of all channels changes
+/// little.
+///
+/// x is the projection on the tangent plane, of length 1, of the sum of (R - |v|) (L - mean L) v over the members,
+/// where the mean has the weights R - |v| too. If that is 0 but for rounding (all colors are equal, or the gradient is
+/// along z), x and y are those of estimate_frame().
+///
+/// `colors`     of the neighbors by index: RgbColors, LabColors, PackedColors or what else gives a Lab; the reference
+///              is not looked at
+/// `radius`     the frame's own; it may be smaller than the one the neighborhood was gathered with
+/// `viewpoint`  turns z; compact descriptors want one
+///
+/// Statuses: missing_colors, and those of estimate_frame(); `frame` is zeroed then. No allocation, reentrant. The
+/// result does not depend on the order of the neighbors, and has the same bits on every machine. describe() and
+/// describe_at() take the frame, extract() one for each key point: "How to add a frame" in include/shortshot/README.md
+/// has the loop.
+template <class Neighbors, class Colors>
+[[nodiscard]] inline Status estimate_frame_under_fixed_lamp(const Neighbors& n, const Colors& colors, Radius radius,
+                                                            Frame& frame, const Viewpoint& viewpoint = {}) noexcept {
+  frame = Frame{};
+  Status status = colors.status();
+  if (status == Status::ok) status = estimate_frame(n, radius, frame, viewpoint);
+  if (status == Status::ok) detail::turn_to_brightness(n, colors, radius, frame);
+  return status;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_FRAME_FIXED_LAMP_FRAME_HPP
+
+// shortshot/search/brute.hpp: neighbors by looking at every point. No index, no memory: the reference, and the choice
+// for a handful of key points in a small cloud.
+#ifndef SHORTSHOT_SEARCH_BRUTE_HPP
+#define SHORTSHOT_SEARCH_BRUTE_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// A search (search.hpp) without an index.
+class BruteSearch {
+ public:
+  explicit BruteSearch(const CloudView& cloud) noexcept
+      : points_(cloud.points), size_(cloud.size), status_(validate(cloud)) {}
+
+  [[nodiscard]] Status status() const noexcept { return status_; }
+
+  [[nodiscard]] std::size_t cloud_size() const noexcept { return size_; }
+
+  template <class Neighbors>
+  [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
+    extend::clear(out, center);
+    if (status_ != Status::ok) return status_;
+    const Point at = center;  // a local: what is stored cannot change it
+    extend::Collector<Neighbors> found = out;
+    for (std::size_t i = 0; i < size_; ++i) {
+      extend::offer(found, extend::read(points_, i), static_cast<std::uint32_t>(i), at, radius.squared);
+    }
+    out = found;
+    return extend::outcome(out);
+  }
+
+ private:
+  Float3Channel points_;  // of the cloud, which is borrowed
+  std::size_t size_;
+  Status status_;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_SEARCH_BRUTE_HPP
+
+// shortshot/search/cell_index.hpp: the fixed-radius grid. Points are counting-sorted into cubic cells once per cloud; a
+// query looks at runs of neighboring cells. Ten times faster to build than a tree, faster to search, and of bounded
+// memory.
+#ifndef SHORTSHOT_SEARCH_CELL_INDEX_HPP
+#define SHORTSHOT_SEARCH_CELL_INDEX_HPP
 
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
@@ -9021,11 +9097,369 @@ Status view_point_cloud2(const Message&& message, CloudView& view) = delete;
 
 #if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
 
-// shortshot/search/grid_search.hpp: the fixed-radius grid with memory of its own. Hosted only: build allocates.
-#ifndef SHORTSHOT_SEARCH_GRID_SEARCH_HPP
-#define SHORTSHOT_SEARCH_GRID_SEARCH_HPP
+// shortshot/batch/grid_search.hpp: the fixed-radius grid with memory of its own. Hosted only: build allocates.
+#ifndef SHORTSHOT_BATCH_GRID_SEARCH_HPP
+#define SHORTSHOT_BATCH_GRID_SEARCH_HPP
 
 #include <vector>
+
+// shortshot/dispatch/widest.hpp: parts of the kernel with the widest lanes that the CPU has, whatever the compiler was
+// told. Hosted only.
+#ifndef SHORTSHOT_DISPATCH_WIDEST_HPP
+#define SHORTSHOT_DISPATCH_WIDEST_HPP
+
+#include <atomic>
+
+// shortshot/dispatch/twins.hpp: what is called what in the kernel for AVX2. Hosted only.
+#ifndef SHORTSHOT_DISPATCH_TWINS_HPP
+#define SHORTSHOT_DISPATCH_TWINS_HPP
+
+// shortshot/dispatch/kernel_for_avx2.hpp: the kernel a second time, for AVX2, where the compiler was told of a plain
+// x86-64 only. Distributions build such programs, and machines without AVX2 have become rare. Hosted only.
+//
+// The same files are read again with another lane shim (base/simd.hpp) into a namespace of its own, `shortshot_avx2`,
+// whose types are twins of those in `shortshot` (twins.hpp): no function of the one is a function of the other, for the
+// compiler or for a linker. It needs no fused multiply-add, and every sum is one of integers: the same bits.
+//
+// Not where code shall be small (-Os), not where the single header has another name than shortshot.hpp (it reads
+// itself), and not where SHORTSHOT_NO_DISPATCH is 1, which saves the time it takes to compile and changes no result.
+#ifndef SHORTSHOT_DISPATCH_KERNEL_FOR_AVX2_HPP
+#define SHORTSHOT_DISPATCH_KERNEL_FOR_AVX2_HPP
+
+#if defined(__x86_64__) && !defined(__AVX2__) && !defined(__OPTIMIZE_SIZE__) && \
+    !SHORTSHOT_IS_SET(SHORTSHOT_NO_DISPATCH) && __has_include("shortshot.hpp")
+#include <immintrin.h>
+
+namespace shortshot_avx2 {
+namespace extend {}
+namespace detail {
+using namespace extend;
+}
+}  // namespace shortshot_avx2
+
+#define SHORTSHOT_FOR_AVX2
+
+// shortshot/dispatch/forget_kernel.hpp: the include guards of hot_kernel.hpp and all that it includes, so that it can
+// be read once more. No include guard.
+
+#undef SHORTSHOT_BASE_FIXED_POINT_HPP
+#undef SHORTSHOT_BASE_MATH_HPP
+#undef SHORTSHOT_BASE_QUAD_HPP
+#undef SHORTSHOT_BASE_QUIET_HPP
+#undef SHORTSHOT_BASE_SIMD_AVX2_HPP
+#undef SHORTSHOT_BASE_SIMD_HPP
+#undef SHORTSHOT_BASE_SIMD_NEON_HPP
+#undef SHORTSHOT_BASE_SIMD_SCALAR_HPP
+#undef SHORTSHOT_BASE_SIMD_SSE2_HPP
+#undef SHORTSHOT_BASE_SYMMETRIC_EIGEN_HPP
+#undef SHORTSHOT_BASE_UNFUSED_HPP
+#undef SHORTSHOT_BASE_UNROLL_HPP
+#undef SHORTSHOT_CLOUD_CLOUD_HPP
+#undef SHORTSHOT_CLOUD_INTENSITY_SOURCE_HPP
+#undef SHORTSHOT_CLOUD_KEYPOINT_HPP
+#undef SHORTSHOT_CLOUD_NORMAL_SOURCE_HPP
+#undef SHORTSHOT_CLOUD_POINT_LANES_HPP
+#undef SHORTSHOT_CLOUD_READ_HPP
+#undef SHORTSHOT_COLOR_COLOR_SOURCE_HPP
+#undef SHORTSHOT_COLOR_FIXED_POWER_HPP
+#undef SHORTSHOT_COLOR_LAB_HPP
+#undef SHORTSHOT_COLOR_PACKED_LAB_HPP
+#undef SHORTSHOT_COLOR_SRGB_HPP
+#undef SHORTSHOT_DESCRIPTOR_AXIS_HPP
+#undef SHORTSHOT_DESCRIPTOR_COMPACT_HPP
+#undef SHORTSHOT_DESCRIPTOR_CONCEPTS_HPP
+#undef SHORTSHOT_DESCRIPTOR_CONVENTIONS_HPP
+#undef SHORTSHOT_DESCRIPTOR_DESCRIPTOR_HPP
+#undef SHORTSHOT_DESCRIPTOR_EXACT_SHELLS_HPP
+#undef SHORTSHOT_DESCRIPTOR_FINISH_RULES_HPP
+#undef SHORTSHOT_DESCRIPTOR_INTERPOLATION_HPP
+#undef SHORTSHOT_DESCRIPTOR_SIGNALS_HPP
+#undef SHORTSHOT_DESCRIPTOR_SOURCE_SET_HPP
+#undef SHORTSHOT_DESCRIPTOR_SPHERICAL_GRID_HPP
+#undef SHORTSHOT_DESCRIPTOR_VOTING_HPP
+#undef SHORTSHOT_DISPATCH_HOT_KERNEL_HPP
+#undef SHORTSHOT_FRAME_FRAME_HPP
+#undef SHORTSHOT_FRAME_NORMAL_HPP
+#undef SHORTSHOT_FRAME_RANK_BY_DISTANCE_HPP
+#undef SHORTSHOT_FRAME_VIEWPOINT_HPP
+#undef SHORTSHOT_KERNEL_ACCUMULATE_HPP
+#undef SHORTSHOT_KERNEL_ACCUMULATE_MEANS_HPP
+#undef SHORTSHOT_KERNEL_CHUNK_HPP
+#undef SHORTSHOT_KERNEL_DESCRIBE_AT_HPP
+#undef SHORTSHOT_KERNEL_DESCRIBE_HPP
+#undef SHORTSHOT_KERNEL_FINISH_HPP
+#undef SHORTSHOT_KERNEL_MEAN_COLOR_HPP
+#undef SHORTSHOT_KERNEL_MEASURE_SIGNALS_HPP
+#undef SHORTSHOT_KERNEL_SOFT_CELLS_HPP
+#undef SHORTSHOT_KERNEL_SOFT_LAYOUT_HPP
+#undef SHORTSHOT_KERNEL_SOFT_SHARES_HPP
+#undef SHORTSHOT_KERNEL_SOFT_VOTES_HPP
+#undef SHORTSHOT_KERNEL_SUPPORT_HPP
+#undef SHORTSHOT_KERNEL_TO_SPHERICAL_HPP
+#undef SHORTSHOT_KERNEL_VOTE_SHARES_HPP
+#undef SHORTSHOT_SEARCH_CELL_BOX_HPP
+#undef SHORTSHOT_SEARCH_CELL_SORT_HPP
+#undef SHORTSHOT_SEARCH_NEIGHBORHOOD_HPP
+#undef SHORTSHOT_SEARCH_OFFER_HPP
+#undef SHORTSHOT_SEARCH_OFFER_RUN_HPP
+#undef SHORTSHOT_SEARCH_RADIUS_HPP
+#undef SHORTSHOT_SEARCH_SEARCH_HPP
+#undef SHORTSHOT_SEARCH_WORKSPACE_HPP
+#undef SHORTSHOT_STATUS_HPP
+#define shortshot shortshot_avx2  // NOLINT: no macro of the library, but a name for a while
+#if defined(__clang__)
+#pragma clang attribute push(__attribute__((target("avx2"))), apply_to = function)
+#else
+#pragma GCC push_options
+#pragma GCC target("avx2")
+#endif
+
+#include "shortshot.hpp"
+
+#if defined(__clang__)
+#pragma clang attribute pop
+#else
+#pragma GCC pop_options
+#endif
+#undef shortshot
+#undef SHORTSHOT_FOR_AVX2
+#define SHORTSHOT_HAS_KERNEL_FOR_AVX2
+#endif
+#endif  // SHORTSHOT_DISPATCH_KERNEL_FOR_AVX2_HPP
+
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// The type of the same name in shortshot_avx2; none for one that is not the library's, like a signal of the caller's.
+template <class T, class = void>
+struct Twin {};
+template <class T>
+using TwinOf = typename Twin<T>::type;
+
+template <class T, class = void>
+struct HasTwin : std::false_type {};
+template <class T>
+struct HasTwin<T, std::void_t<TwinOf<T>>> : std::true_type {};
+template <class... T>
+using IfTwins = std::enable_if_t<std::conjunction<HasTwin<T>...>::value>;
+
+#define SHORTSHOT_TWIN(name)             \
+  template <>                            \
+  struct Twin<shortshot::name> {         \
+    using type = ::shortshot_avx2::name; \
+  };
+#define SHORTSHOT_TWIN_OF_NUMBERS(name)        \
+  template <auto... N>                         \
+  struct Twin<shortshot::name<N...>> {         \
+    using type = ::shortshot_avx2::name<N...>; \
+  };
+SHORTSHOT_TWIN(CloudIntensities)
+SHORTSHOT_TWIN(CloudNormals)
+SHORTSHOT_TWIN(CshotLab)
+SHORTSHOT_TWIN(HardVoting)
+SHORTSHOT_TWIN(HeightCells)
+SHORTSHOT_TWIN(KeyPointColor)
+SHORTSHOT_TWIN(LabColors)
+SHORTSHOT_TWIN(LinearRadius)
+SHORTSHOT_TWIN(MeanColor)
+SHORTSHOT_TWIN(MultilinearVoting)
+SHORTSHOT_TWIN(Occupancy)
+SHORTSHOT_TWIN(PclLab)
+SHORTSHOT_TWIN(PlainSums)
+SHORTSHOT_TWIN(PublishedCells)
+SHORTSHOT_TWIN(PublishedLab)
+SHORTSHOT_TWIN(ShotCells)
+SHORTSHOT_TWIN_OF_NUMBERS(AdditiveVoting)
+SHORTSHOT_TWIN_OF_NUMBERS(SeparateVoting)
+SHORTSHOT_TWIN_OF_NUMBERS(Intensity)
+SHORTSHOT_TWIN_OF_NUMBERS(LogRadius)
+SHORTSHOT_TWIN_OF_NUMBERS(NormalCosine)
+SHORTSHOT_TWIN_OF_NUMBERS(RootOfShares)
+SHORTSHOT_TWIN_OF_NUMBERS(SignedRoots)
+SHORTSHOT_TWIN_OF_NUMBERS(SphericalGrid)
+#undef SHORTSHOT_TWIN
+#undef SHORTSHOT_TWIN_OF_NUMBERS
+
+template <int Bins, class... Colors>
+struct Twin<ColorDistance<Bins, Colors...>, IfTwins<Colors...>> {
+  using type = ::shortshot_avx2::ColorDistance<Bins, TwinOf<Colors>...>;
+};
+template <LabAxis Axis, int Number, class Rule>
+struct Twin<ColorOffset<Axis, Number, Rule>, IfTwins<Rule>> {
+  using type = ::shortshot_avx2::ColorOffset<static_cast<::shortshot_avx2::LabAxis>(Axis), Number, TwinOf<Rule>>;
+};
+template <LabAxis Axis, int Number, class Rule>
+struct Twin<ColorExcess<Axis, Number, Rule>, IfTwins<Rule>> {
+  using type = ::shortshot_avx2::ColorExcess<static_cast<::shortshot_avx2::LabAxis>(Axis), Number, TwinOf<Rule>>;
+};
+template <class... Rules>
+struct Twin<Part<Rules...>, IfTwins<Rules...>> {
+  using type = ::shortshot_avx2::Part<TwinOf<Rules>...>;
+};
+template <class Grid, class Cells, class Finish, int ShrinkPercent, class... Signals>
+struct Twin<CellMeans<Grid, Cells, Finish, ShrinkPercent, Signals...>, IfTwins<Grid, Cells, Finish, Signals...>> {
+  using type =
+      ::shortshot_avx2::CellMeans<TwinOf<Grid>, TwinOf<Cells>, TwinOf<Finish>, ShrinkPercent, TwinOf<Signals>...>;
+};
+template <class... Rules>
+struct Twin<Descriptor<Rules...>, IfTwins<Rules...>> {
+  using type = ::shortshot_avx2::Descriptor<TwinOf<Rules>...>;
+};
+
+template <class... Sources>
+struct Twin<extend::SourceSet<Sources...>, IfTwins<Sources...>> {
+  using type = ::shortshot_avx2::extend::SourceSet<TwinOf<Sources>...>;
+};
+
+/// A value as its twin: the same text made both types, so that they have the same bytes.
+template <class To, class From>
+[[nodiscard]] inline To as_twin(const From& from) noexcept {
+  static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From) && std::is_trivially_copyable<To>::value &&
+                    std::is_trivially_copyable<From>::value,
+                "twins are plain data of one size");
+  union Uninitialized {
+    Uninitialized() noexcept {}
+    To value;
+  } to;
+  std::memcpy(static_cast<void*>(&to.value), &from, sizeof from);
+  return to.value;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif
+#endif  // SHORTSHOT_DISPATCH_TWINS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline std::atomic<bool> may_use_wider_lanes{true};
+
+/// Are there wider lanes than the compiler was told of?
+[[nodiscard]] inline bool has_wider_lanes() noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  return may_use_wider_lanes.load(std::memory_order_relaxed) && __builtin_cpu_supports("avx2") != 0;
+#else
+  return false;
+#endif
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot::extend {
+inline namespace SHORTSHOT_CODE {
+
+/// Functions for hosts (extract(), GridSearch, ...) that were compiled for a plain x86-64 use AVX2 where the CPU has
+/// it, which nothing but the clock shows: the bits are the same. This keeps them from it, or lets them again, for
+/// whoever wants to compare; it counts for all threads. Says whether they use it now.
+inline bool allow_wider_lanes(bool allowed) noexcept {
+  detail::may_use_wider_lanes.store(allowed, std::memory_order_relaxed);
+  return detail::has_wider_lanes();
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// describe_gathered(). A descriptor or a source of the caller's own has no twin, and takes the lanes that the compiler
+/// was told of.
+template <class D, class Sources>
+[[nodiscard]] inline Status describe_widest(const Neighborhood& n, const Sources& sources, const Point& center,
+                                            const Support& support, Frame& frame, float* out,
+                                            FrameConfidence& confidence) noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  if constexpr (HasTwin<D>::value && HasTwin<Sources>::value) {
+    if (has_wider_lanes()) {
+      auto twin_frame = as_twin<::shortshot_avx2::Frame>(frame);
+      auto twin_confidence = as_twin<::shortshot_avx2::FrameConfidence>(confidence);
+      const auto status = ::shortshot_avx2::detail::describe_gathered<TwinOf<D>, default_chunk_size>(
+          as_twin<::shortshot_avx2::Neighborhood>(n), as_twin<TwinOf<Sources>>(sources),
+          as_twin<::shortshot_avx2::Point>(center), as_twin<::shortshot_avx2::Support>(support), twin_frame, out,
+          twin_confidence);
+      frame = as_twin<Frame>(twin_frame);
+      confidence = as_twin<FrameConfidence>(twin_confidence);
+      return static_cast<Status>(status);
+    }
+  }
+#endif
+  return describe_gathered<D, default_chunk_size>(n, sources, center, support, frame, out, confidence);
+}
+
+/// describe().
+template <class D, class Sources>
+[[nodiscard]] inline Status describe_widest(const Neighborhood& n, const Sources& sources, const Frame& frame,
+                                            Radius radius, float* out) noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  if constexpr (HasTwin<D>::value && HasTwin<Sources>::value) {
+    if (has_wider_lanes()) {
+      return static_cast<Status>(::shortshot_avx2::describe<TwinOf<D>>(
+          as_twin<::shortshot_avx2::Neighborhood>(n), as_twin<TwinOf<Sources>>(sources),
+          as_twin<::shortshot_avx2::Frame>(frame), as_twin<::shortshot_avx2::Radius>(radius), out));
+    }
+  }
+#endif
+  return describe<D>(n, sources, frame, radius, out);
+}
+
+using HostGrid = Grid<std::uint32_t>;
+
+/// A grid's gather().
+template <class Neighbors>
+[[nodiscard]] inline Status gather_widest(const HostGrid& grid, const GridContents<std::uint32_t>& contents,
+                                          const Point& center, Radius radius, Neighbors& out) noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  if constexpr (std::is_same<Neighbors, Neighborhood>::value) {
+    if (has_wider_lanes()) {
+      auto twin = as_twin<::shortshot_avx2::Neighborhood>(out);
+      const auto status = ::shortshot_avx2::detail::gather_from(
+          as_twin<::shortshot_avx2::detail::Grid<std::uint32_t>>(grid),
+          as_twin<::shortshot_avx2::detail::GridContents<std::uint32_t>>(contents),
+          as_twin<::shortshot_avx2::Point>(center), as_twin<::shortshot_avx2::Radius>(radius), twin);
+      out = as_twin<Neighborhood>(twin);
+      return static_cast<Status>(status);
+    }
+  }
+#endif
+  return grid.gather(contents, center, radius, out);
+}
+
+/// The first half of a grid's build().
+[[nodiscard]] inline Status plan_widest(HostGrid& grid, const CloudView& cloud, float cell_size,
+                                        const GridMemory<std::uint32_t>& memory) noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  if (has_wider_lanes()) {
+    auto twin = as_twin<::shortshot_avx2::detail::Grid<std::uint32_t>>(grid);
+    const auto status = twin.plan(as_twin<::shortshot_avx2::CloudView>(cloud), cell_size,
+                                  as_twin<::shortshot_avx2::GridMemory<std::uint32_t>>(memory));
+    grid = as_twin<HostGrid>(twin);
+    return static_cast<Status>(status);
+  }
+#endif
+  return grid.plan(cloud, cell_size, memory);
+}
+
+/// The second half.
+inline void sort_widest(const HostGrid& grid, const CloudView& cloud,
+                        const GridMemory<std::uint32_t>& memory) noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  if (has_wider_lanes()) {
+    as_twin<::shortshot_avx2::detail::Grid<std::uint32_t>>(grid).sort(
+        as_twin<::shortshot_avx2::CloudView>(cloud), as_twin<::shortshot_avx2::GridMemory<std::uint32_t>>(memory));
+    return;
+  }
+#endif
+  grid.sort(cloud, memory);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_DISPATCH_WIDEST_HPP
 
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
@@ -9056,8 +9490,8 @@ class GridSearch {
     const std::size_t cells = 4 * points + 4096;
     if (cell_end_.size() < planning_cells) cell_end_.resize(planning_cells);
     grid_ = {};  // and so it stays if there is no memory
-    detail::Grid<std::uint32_t> next{};
-    if (next.plan(cloud, radius, {nullptr, cell_end_.data(), nullptr, points, cells}) != Status::ok) {
+    detail::HostGrid next{};
+    if (detail::plan_widest(next, cloud, radius, {nullptr, cell_end_.data(), nullptr, points, cells}) != Status::ok) {
       grid_ = next;
       return next.status();
     }
@@ -9069,7 +9503,7 @@ class GridSearch {
       xyz_.resize(3 * next.size());
     }
     if (cell_end_.size() < next.cells()) cell_end_.resize(next.cells());
-    next.sort(cloud, {order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cell_end_.size()});
+    detail::sort_widest(next, cloud, {order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cell_end_.size()});
     grid_ = next;
     return Status::ok;
   }
@@ -9079,7 +9513,7 @@ class GridSearch {
 
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
-    return grid_.gather({order_.data(), cell_end_.data(), xyz_.data()}, center, radius, out);
+    return detail::gather_widest(grid_, {order_.data(), cell_end_.data(), xyz_.data()}, center, radius, out);
   }
 
  private:
@@ -9092,7 +9526,7 @@ class GridSearch {
     xyz_.swap(other.xyz_);
   }
 
-  detail::Grid<std::uint32_t> grid_{};
+  detail::HostGrid grid_{};
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> cell_end_;
   std::vector<float> xyz_;
@@ -9100,7 +9534,7 @@ class GridSearch {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
-#endif  // SHORTSHOT_SEARCH_GRID_SEARCH_HPP
+#endif  // SHORTSHOT_BATCH_GRID_SEARCH_HPP
 
 // shortshot/descriptor/layout_text.hpp: what the values of a descriptor mean, as text: for files, and for code that
 // knows descriptors only at run time. Hosted only: allocates.
@@ -9561,7 +9995,6 @@ class KeypointSampler {
 #ifndef SHORTSHOT_BATCH_EXECUTOR_HPP
 #define SHORTSHOT_BATCH_EXECUTOR_HPP
 
-#include <atomic>
 #include <thread>
 
 namespace shortshot::detail {
@@ -10362,8 +10795,8 @@ class Extractor {
   [[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
                                const Support& support, Features<D>& out, Threads&& threads = 1u, const Own&... own) {
     const auto finish = [&](const Neighborhood& n, const auto& sources, std::size_t row, float* values) {
-      return detail::describe_gathered<D, default_chunk_size>(n, sources, out.keypoints[row].position, support,
-                                                              out.frames[row], values, out.frame_confidence[row]);
+      return detail::describe_widest<D>(n, sources, out.keypoints[row].position, support, out.frames[row], values,
+                                        out.frame_confidence[row]);
     };
     const detail::SafeFrom<std::vector<Key>, D> keys(keypoints, out);
     return extract_all<true>(cloud, search, keys.get(), support, out, threads, finish, own...);
@@ -10383,7 +10816,7 @@ class Extractor {
     const detail::SafeFrom<std::vector<Key>, D> keys(keypoints, out);
     const auto finish = [&](const Neighborhood& n, const auto& sources, std::size_t row, float* values) {
       out.frames[row] = kept.get()[row];
-      return describe<D>(n, sources, out.frames[row], radius, values);
+      return detail::describe_widest<D>(n, sources, out.frames[row], radius, values);
     };
     return extract_all<false>(cloud, search, keys.get(), radius, out, threads, finish, own...);
   }
@@ -15280,6 +15713,8 @@ CloudView view_eigen(const Arguments&...) noexcept {
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_CLOUD_VIEW_EIGEN_MISSING_HPP
+#endif
+
 #endif
 
 // shortshot/macros_on.hpp: the macros that macros_off.hpp set aside, as they were.

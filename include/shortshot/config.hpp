@@ -1,4 +1,6 @@
-// shortshot/config.hpp: the macros the library sets. There is none for you to set: options are template parameters.
+// shortshot/config.hpp: the macros the library sets. Options are template parameters. There is one macro for you to
+// set, which changes no result: with -DSHORTSHOT_NO_DISPATCH the library keeps to the instructions that the compiler
+// was told of (dispatch/kernel_for_avx2.hpp).
 //
 // Everything in `shortshot` (for users), `shortshot::extend` (for those who add a signal, a voting rule, a search or a
 // frame) and `shortshot::detail` (for nobody) lies in one of two inline namespaces:
@@ -54,11 +56,12 @@
 
 #define SHORTSHOT_TYPES SHORTSHOT_JOIN_VERSION(SHORTSHOT_VERSION_MAJOR, SHORTSHOT_VERSION_MINOR)
 
-#define SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h, i) types##_##a##b##c##d##e##f##g##h##i
-#define SHORTSHOT_JOIN_CODE(types, a, b, c, d, e, f, g, h, i) SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h, i)
+#define SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h, i, j) types##_##a##b##c##d##e##f##g##h##i##j
+#define SHORTSHOT_JOIN_CODE(types, a, b, c, d, e, f, g, h, i, j) \
+  SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h, i, j)
 
 // Every flag that lets the compiler use other instructions, or makes it compute or inline otherwise, is a bit of the
-// name: `v0_1_c00000000` is version 0.1 for plain x86-64.
+// name: `v0_1_c000000000` is version 0.1 for plain x86-64.
 #define SHORTSHOT_CODE                                                                                                 \
   SHORTSHOT_JOIN_CODE(                                                                                                 \
       SHORTSHOT_TYPES, SHORTSHOT_DIGIT(__SSE__, __SSE2__, __SSE3__, __SSSE3__),                                        \
@@ -68,7 +71,8 @@
       SHORTSHOT_DIGIT(__AVX512CD__, __AVX512VNNI__, __AVXVNNI__, __FMA4__),                                            \
       SHORTSHOT_DIGIT(__ARM_NEON, __ARM_FEATURE_FMA, __ARM_FEATURE_DSP, __ARM_FEATURE_DOTPROD),                        \
       SHORTSHOT_DIGIT(__ARM_FEATURE_SVE, __ARM_FEATURE_MVE, __FAST_MATH__, __OPTIMIZE_SIZE__),                         \
-      SHORTSHOT_DIGIT(__RECIPROCAL_MATH__, __ASSOCIATIVE_MATH__, __NO_SIGNED_ZEROS__, __FINITE_MATH_ONLY__))
+      SHORTSHOT_DIGIT(__RECIPROCAL_MATH__, __ASSOCIATIVE_MATH__, __NO_SIGNED_ZEROS__, __FINITE_MATH_ONLY__),           \
+      SHORTSHOT_DIGIT(SHORTSHOT_NO_DISPATCH, 0, 0, 0))
 
 // Set by us, too: functions, and lambdas, that are inlined for speed, but left to the compiler where it was asked for
 // small code (-Os).

@@ -15,12 +15,14 @@
 // clang-format off
 #include "macros_off.hpp"
 
+#include "dispatch/hot_kernel.hpp"
+#if !defined(SHORTSHOT_FOR_AVX2)  // the single header reads itself up to here (dispatch/kernel_for_avx2.hpp)
 #include "kernel.hpp"
 #include "cloud/view_of.hpp"
 #include "cloud/view_point_cloud2.hpp"
 
 #if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
-#include "search/grid_search.hpp"
+#include "batch/grid_search.hpp"
 #include "descriptor/layout_text.hpp"
 #include "batch/keypoints.hpp"
 #include "batch/estimate_normals.hpp"
@@ -48,6 +50,8 @@
 #include "cloud/view_eigen.hpp"
 #else
 #include "cloud/view_eigen_missing.hpp"
+#endif
+
 #endif
 
 #include "macros_on.hpp"

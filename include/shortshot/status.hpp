@@ -1,5 +1,6 @@
 // shortshot/status.hpp: the one way in which the library reports that something is wrong.
-#pragma once
+#ifndef SHORTSHOT_STATUS_HPP
+#define SHORTSHOT_STATUS_HPP
 
 #include <cstdint>
 
@@ -115,3 +116,5 @@ inline namespace SHORTSHOT_CODE {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_STATUS_HPP

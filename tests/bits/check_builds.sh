@@ -47,8 +47,9 @@ input() {  # NAME COMPILER FLAGS...
 }
 
 [ "$(uname -m)" = x86_64 ] || { left_out "same bits of all builds, this is no x86-64"; exit $failed; }
+# Where nothing else is said, a plain build uses AVX2 in extract() and other functions for hosts.
 input input_x86 g++ -O2
-build gcc_sse2 g++ -O2  # what all others are compared with
+build gcc_sse2 g++ -O2 -DSHORTSHOT_NO_DISPATCH  # what all others are compared with
 build gcc_sse2_Os g++ -Os
 build gcc_sse2_O3 g++ -O3
 build gcc_scalar g++ -O2 -U__SSE2__

@@ -1,10 +1,10 @@
 // Every search against the loop over all points: the same neighbors, the same statuses, the same bits of descriptors.
 #include <algorithm>
 #include <nanoflann.hpp>
+#include <shortshot/batch/grid_search.hpp>
 #include <shortshot/descriptor/compact.hpp>
 #include <shortshot/frame/fixed_lamp_frame.hpp>
 #include <shortshot/kernel.hpp>
-#include <shortshot/search/grid_search.hpp>
 #include <shortshot/search/nanoflann.hpp>
 
 #include "made_cloud.hpp"

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "shortshot/batch/estimate_normals.hpp"
+#include "shortshot/batch/grid_search.hpp"
 #include "shortshot/batch/keypoints.hpp"
 #include "shortshot/kernel/describe.hpp"
-#include "shortshot/search/grid_search.hpp"
 #include "shortshot/status.hpp"
 #include "tools/io/view_of_cloud.hpp"
 

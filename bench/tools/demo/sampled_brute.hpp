@@ -6,9 +6,9 @@
 #include <cstdint>
 
 #include "shortshot/base/math.hpp"
+#include "shortshot/batch/grid_search.hpp"
 #include "shortshot/cloud/cloud.hpp"
 #include "shortshot/search/brute.hpp"
-#include "shortshot/search/grid_search.hpp"
 #include "shortshot/search/neighborhood.hpp"
 #include "shortshot/search/radius.hpp"
 #include "shortshot/status.hpp"

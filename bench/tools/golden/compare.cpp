@@ -10,9 +10,9 @@
 #include "frames.hpp"
 #include "known_arrays.hpp"
 #include "neighbors.hpp"
+#include "shortshot/batch/grid_search.hpp"
 #include "shortshot/color/lab.hpp"
 #include "shortshot/search/brute.hpp"
-#include "shortshot/search/grid_search.hpp"
 
 namespace shortshot_bench::golden {
 namespace {

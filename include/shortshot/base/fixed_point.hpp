@@ -3,7 +3,8 @@
 // Float additions round, so a sum depends on the order of its terms: on the search that found the neighbors, on the
 // number of lanes, on the number of threads. Every sum over neighbors in this library adds numbers that were first
 // scaled by a power of two and rounded to integers: exact additions, the same bits whatever the order.
-#pragma once
+#ifndef SHORTSHOT_BASE_FIXED_POINT_HPP
+#define SHORTSHOT_BASE_FIXED_POINT_HPP
 
 #include <cstdint>
 
@@ -26,3 +27,5 @@ inline namespace SHORTSHOT_CODE {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_BASE_FIXED_POINT_HPP

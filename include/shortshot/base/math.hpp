@@ -1,7 +1,8 @@
 // shortshot/base/math.hpp: the few functions the kernel needs beyond + - * / sqrt, with the same bits on every machine.
 //
 // libm's atan2f, acosf, cbrtf and logf differ from one libm to the next; these do not, and they work on lanes.
-#pragma once
+#ifndef SHORTSHOT_BASE_MATH_HPP
+#define SHORTSHOT_BASE_MATH_HPP
 
 #include <cstdint>
 #include <cstring>
@@ -109,3 +110,5 @@ inline constexpr float least_normal = 1.17549435e-38f;
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::math
+
+#endif  // SHORTSHOT_BASE_MATH_HPP

@@ -1,5 +1,6 @@
 // shortshot/base/quad.hpp: four integers side by side in memory, for all lane shims.
-#pragma once
+#ifndef SHORTSHOT_BASE_QUAD_HPP
+#define SHORTSHOT_BASE_QUAD_HPP
 
 #include <cstdint>
 
@@ -13,3 +14,5 @@ using Quad = std::int32_t __attribute__((vector_size(16)));
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd
+
+#endif  // SHORTSHOT_BASE_QUAD_HPP

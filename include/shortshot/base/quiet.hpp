@@ -2,7 +2,8 @@
 //
 // What is promised: FE_INVALID and FE_DIVBYZERO are raised by no function of the library, FE_OVERFLOW only where points
 // lie farther apart than 1e19. Arithmetic with NaN is quiet by itself; <, min() and max() are not.
-#pragma once
+#ifndef SHORTSHOT_BASE_QUIET_HPP
+#define SHORTSHOT_BASE_QUIET_HPP
 
 #include "../config.hpp"
 
@@ -20,3 +21,5 @@ inline namespace SHORTSHOT_CODE {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_BASE_QUIET_HPP

@@ -3,13 +3,14 @@
 //
 // All operations are exactly rounded IEEE single precision or pure bit moves, and every accumulation in the kernel is
 // an integer sum (fixed_point.hpp), so that the number of lanes never changes a result.
-#pragma once
+#ifndef SHORTSHOT_BASE_SIMD_HPP
+#define SHORTSHOT_BASE_SIMD_HPP
 
 #include "../config.hpp"
 #include "quad.hpp"
 #include "unfused.hpp"
 
-#if defined(__AVX2__)
+#if defined(__AVX2__) || defined(SHORTSHOT_FOR_AVX2)
 #include "simd_avx2.hpp"
 #elif defined(__SSE2__)
 #include "simd_sse2.hpp"
@@ -56,3 +57,5 @@ template <class Function>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd
+
+#endif  // SHORTSHOT_BASE_SIMD_HPP

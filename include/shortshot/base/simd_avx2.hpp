@@ -1,5 +1,6 @@
 // shortshot/base/simd_avx2.hpp: the lane shim on AVX2, 8 lanes. Included by simd.hpp, which says what it must do.
-#pragma once
+#ifndef SHORTSHOT_BASE_SIMD_AVX2_HPP
+#define SHORTSHOT_BASE_SIMD_AVX2_HPP
 
 #include <immintrin.h>
 
@@ -203,3 +204,5 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd
+
+#endif  // SHORTSHOT_BASE_SIMD_AVX2_HPP

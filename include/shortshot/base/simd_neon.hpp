@@ -1,6 +1,7 @@
 // shortshot/base/simd_neon.hpp: the lane shim on NEON, 4 lanes: every aarch64 (32-bit NEON flushes denormals and cannot
 // divide). Included by simd.hpp, which says what it must do.
-#pragma once
+#ifndef SHORTSHOT_BASE_SIMD_NEON_HPP
+#define SHORTSHOT_BASE_SIMD_NEON_HPP
 
 #include <arm_neon.h>
 
@@ -186,3 +187,5 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd
+
+#endif  // SHORTSHOT_BASE_SIMD_NEON_HPP

@@ -1,6 +1,7 @@
 // shortshot/base/simd_scalar.hpp: the lane shim one lane at a time: microcontrollers, and whatever has no other.
 // Included by simd.hpp, which says what it must do.
-#pragma once
+#ifndef SHORTSHOT_BASE_SIMD_SCALAR_HPP
+#define SHORTSHOT_BASE_SIMD_SCALAR_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -155,3 +156,5 @@ inline void store(std::uint32_t* p, I32 a, const Packing&) noexcept { store(p, a
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd
+
+#endif  // SHORTSHOT_BASE_SIMD_SCALAR_HPP

@@ -1,6 +1,7 @@
 // shortshot/base/simd_sse2.hpp: the lane shim on SSE2, 4 lanes: every x86-64. Included by simd.hpp, which says what it
 // must do.
-#pragma once
+#ifndef SHORTSHOT_BASE_SIMD_SSE2_HPP
+#define SHORTSHOT_BASE_SIMD_SSE2_HPP
 
 #include <emmintrin.h>
 
@@ -186,3 +187,5 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd
+
+#endif  // SHORTSHOT_BASE_SIMD_SSE2_HPP

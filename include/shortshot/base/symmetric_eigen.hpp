@@ -5,7 +5,8 @@
 // the exactly rounded square root. Eigen's solvers are as good on a PC, but the direct one calls atan2, cos and sin
 // (other bits with every libm) and both cost more flash than the rest of the frame. Rotations take the same steps for
 // every matrix, so a register's lanes hold as many matrices, each with the bits that it would have alone.
-#pragma once
+#ifndef SHORTSHOT_BASE_SYMMETRIC_EIGEN_HPP
+#define SHORTSHOT_BASE_SYMMETRIC_EIGEN_HPP
 
 #include <cstddef>
 
@@ -155,3 +156,5 @@ template <int N = 3>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_BASE_SYMMETRIC_EIGEN_HPP

@@ -1,5 +1,6 @@
 // shortshot/base/unfused.hpp: no a * b + c in one rounding, whatever the compiler was told.
-#pragma once
+#ifndef SHORTSHOT_BASE_UNFUSED_HPP
+#define SHORTSHOT_BASE_UNFUSED_HPP
 
 #include "../config.hpp"
 
@@ -37,9 +38,15 @@ template <class Float>
   return __builtin_is_constant_evaluated() ? product : detail::hidden(product);
 }
 
+[[nodiscard]] inline float dot(const float (&a)[3], const float (&b)[3]) noexcept {
+  return (unfused(a[0] * b[0]) + unfused(a[2] * b[2])) + unfused(a[1] * b[1]);
+}
+
 /// 1.5 * 2^23: a float below 2^22 to which this is added, and from which it is taken again, has been rounded to a whole
 /// number.
 inline constexpr float whole_numbers = 12582912.0f;
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend
+
+#endif  // SHORTSHOT_BASE_UNFUSED_HPP

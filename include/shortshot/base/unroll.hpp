@@ -1,6 +1,7 @@
 // shortshot/base/unroll.hpp: loops of a length known while compiling, written out. Compilers do not unroll them at -O2,
 // and what an unrolled body keeps in registers a loop keeps in memory.
-#pragma once
+#ifndef SHORTSHOT_BASE_UNROLL_HPP
+#define SHORTSHOT_BASE_UNROLL_HPP
 
 #include <type_traits>
 #include <utility>
@@ -40,3 +41,5 @@ SHORTSHOT_INLINE void each(Function f) noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_BASE_UNROLL_HPP

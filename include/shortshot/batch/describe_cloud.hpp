@@ -10,11 +10,11 @@
 #include "../config.hpp"
 #include "../frame/viewpoint.hpp"
 #include "../kernel/support.hpp"
-#include "../search/grid_search.hpp"
 #include "../search/radius.hpp"
 #include "../status.hpp"
 #include "extractor.hpp"
 #include "features.hpp"
+#include "grid_search.hpp"
 #include "keep_best_frames.hpp"
 #include "keypoints.hpp"
 

@@ -15,6 +15,7 @@
 #include "../color/color_source.hpp"
 #include "../color/lab_table.hpp"
 #include "../config.hpp"
+#include "../dispatch/widest.hpp"
 #include "../kernel/describe_at.hpp"
 #include "../search/neighborhood.hpp"
 #include "../search/radius.hpp"
@@ -94,8 +95,8 @@ class Extractor {
   [[nodiscard]] Status extract(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
                                const Support& support, Features<D>& out, Threads&& threads = 1u, const Own&... own) {
     const auto finish = [&](const Neighborhood& n, const auto& sources, std::size_t row, float* values) {
-      return detail::describe_gathered<D, default_chunk_size>(n, sources, out.keypoints[row].position, support,
-                                                              out.frames[row], values, out.frame_confidence[row]);
+      return detail::describe_widest<D>(n, sources, out.keypoints[row].position, support, out.frames[row], values,
+                                        out.frame_confidence[row]);
     };
     const detail::SafeFrom<std::vector<Key>, D> keys(keypoints, out);
     return extract_all<true>(cloud, search, keys.get(), support, out, threads, finish, own...);
@@ -115,7 +116,7 @@ class Extractor {
     const detail::SafeFrom<std::vector<Key>, D> keys(keypoints, out);
     const auto finish = [&](const Neighborhood& n, const auto& sources, std::size_t row, float* values) {
       out.frames[row] = kept.get()[row];
-      return describe<D>(n, sources, out.frames[row], radius, values);
+      return detail::describe_widest<D>(n, sources, out.frames[row], radius, values);
     };
     return extract_all<false>(cloud, search, keys.get(), radius, out, threads, finish, own...);
   }

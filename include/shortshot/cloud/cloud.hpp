@@ -1,6 +1,7 @@
 // shortshot/cloud/cloud.hpp: the only door for point clouds. A CloudView borrows the user's own memory, whatever its
 // layout.
-#pragma once
+#ifndef SHORTSHOT_CLOUD_CLOUD_HPP
+#define SHORTSHOT_CLOUD_CLOUD_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -186,3 +187,5 @@ template <class Scalar>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_CLOUD_CLOUD_HPP

@@ -1,5 +1,6 @@
 // shortshot/cloud/intensity_source.hpp: where a descriptor's intensities come from.
-#pragma once
+#ifndef SHORTSHOT_CLOUD_INTENSITY_SOURCE_HPP
+#define SHORTSHOT_CLOUD_INTENSITY_SOURCE_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -37,3 +38,5 @@ struct CloudIntensities {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_CLOUD_INTENSITY_SOURCE_HPP

@@ -1,5 +1,6 @@
 // shortshot/cloud/keypoint.hpp: a place to describe.
-#pragma once
+#ifndef SHORTSHOT_CLOUD_KEYPOINT_HPP
+#define SHORTSHOT_CLOUD_KEYPOINT_HPP
 
 #include <cstddef>
 #include <type_traits>
@@ -58,3 +59,5 @@ template <class Index>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_CLOUD_KEYPOINT_HPP

@@ -1,5 +1,6 @@
 // shortshot/cloud/normal_source.hpp: where a descriptor's normals come from.
-#pragma once
+#ifndef SHORTSHOT_CLOUD_NORMAL_SOURCE_HPP
+#define SHORTSHOT_CLOUD_NORMAL_SOURCE_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -34,3 +35,5 @@ struct CloudNormals {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_CLOUD_NORMAL_SOURCE_HPP

@@ -1,5 +1,6 @@
 // shortshot/cloud/point_lanes.hpp: the points of one register.
-#pragma once
+#ifndef SHORTSHOT_CLOUD_POINT_LANES_HPP
+#define SHORTSHOT_CLOUD_POINT_LANES_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -66,3 +67,5 @@ template <class Function>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend
+
+#endif  // SHORTSHOT_CLOUD_POINT_LANES_HPP

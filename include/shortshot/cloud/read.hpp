@@ -1,5 +1,6 @@
 // shortshot/cloud/read.hpp: what a view says of one point.
-#pragma once
+#ifndef SHORTSHOT_CLOUD_READ_HPP
+#define SHORTSHOT_CLOUD_READ_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -109,3 +110,5 @@ void for_each_valid(const CloudView& cloud, Function f) {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend
+
+#endif  // SHORTSHOT_CLOUD_READ_HPP

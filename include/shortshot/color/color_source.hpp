@@ -1,6 +1,7 @@
 // shortshot/color/color_source.hpp: where a descriptor's colors come from: the cloud's bytes, or an array converted
 // before.
-#pragma once
+#ifndef SHORTSHOT_COLOR_COLOR_SOURCE_HPP
+#define SHORTSHOT_COLOR_COLOR_SOURCE_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -157,3 +158,5 @@ template <class LabRule, class Color>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_COLOR_COLOR_SOURCE_HPP

@@ -1,6 +1,7 @@
 // shortshot/color/fixed_power.hpp: the roots of CIELAB, in integers: half the instructions of a float version that is
 // as good, a fortieth where there is no FPU, and nothing that could round differently elsewhere.
-#pragma once
+#ifndef SHORTSHOT_COLOR_FIXED_POWER_HPP
+#define SHORTSHOT_COLOR_FIXED_POWER_HPP
 
 #include <cstdint>
 
@@ -52,3 +53,5 @@ inline constexpr FixedPower published_root{
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_COLOR_FIXED_POWER_HPP

@@ -3,7 +3,8 @@
 // Both existing codes quantize the CIE ratios to 1/4000 and look their cube root up in a table of 4000 entries; here
 // the same quantized ratio goes through a computed root, so that 16 KB of tables are not needed and pure white, which
 // reads past the end of both tables, is defined (in PclLab, too: as what PCL was seen to read there).
-#pragma once
+#ifndef SHORTSHOT_COLOR_LAB_HPP
+#define SHORTSHOT_COLOR_LAB_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -168,3 +169,5 @@ inline namespace SHORTSHOT_CODE {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_COLOR_LAB_HPP

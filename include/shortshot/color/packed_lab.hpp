@@ -1,5 +1,6 @@
 // shortshot/color/packed_lab.hpp: a CIELAB color in 32 bits, for arrays with one color per point.
-#pragma once
+#ifndef SHORTSHOT_COLOR_PACKED_LAB_HPP
+#define SHORTSHOT_COLOR_PACKED_LAB_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -62,3 +63,5 @@ class PackedLab {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_COLOR_PACKED_LAB_HPP

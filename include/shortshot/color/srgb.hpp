@@ -1,6 +1,7 @@
 // shortshot/color/srgb.hpp: sRGB's gamma undone, by a table of 1 KB or, where code shall be small, without: the same
 // bits.
-#pragma once
+#ifndef SHORTSHOT_COLOR_SRGB_HPP
+#define SHORTSHOT_COLOR_SRGB_HPP
 
 #include <array>
 #include <cstddef>
@@ -88,3 +89,5 @@ inline constexpr FixedPower srgb_root{
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_COLOR_SRGB_HPP

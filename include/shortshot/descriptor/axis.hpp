@@ -1,5 +1,6 @@
 // shortshot/descriptor/axis.hpp: one axis of a part: its cells, and what lies beyond them.
-#pragma once
+#ifndef SHORTSHOT_DESCRIPTOR_AXIS_HPP
+#define SHORTSHOT_DESCRIPTOR_AXIS_HPP
 
 #include <cstdint>
 
@@ -38,3 +39,5 @@ struct Axis {
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::extend
+
+#endif  // SHORTSHOT_DESCRIPTOR_AXIS_HPP

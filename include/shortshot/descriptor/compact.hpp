@@ -21,7 +21,8 @@
 // Azimuths go around; beyond the other axes' ends the rest stays in cell i. The share w of a cell (r, e, a) of a grid
 // of R x E x A cells, or of a bin in it, is the product over all axes: those of one neighbor add up to 1. A sum without
 // bounds is over the neighbors.
-#pragma once
+#ifndef SHORTSHOT_DESCRIPTOR_COMPACT_HPP
+#define SHORTSHOT_DESCRIPTOR_COMPACT_HPP
 
 #include "../config.hpp"
 #include "conventions.hpp"
@@ -109,3 +110,5 @@ static_assert(ShapeColor95::size == 190 && ShapeColor32::size == 64 && RoomColor
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_DESCRIPTOR_COMPACT_HPP

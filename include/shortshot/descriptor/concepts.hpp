@@ -1,6 +1,7 @@
 // shortshot/descriptor/concepts.hpp: what a signal and a voting rule must have. C++17 knows no concepts; these are
 // asked in static_asserts, so that who leaves something out reads one sentence.
-#pragma once
+#ifndef SHORTSHOT_DESCRIPTOR_CONCEPTS_HPP
+#define SHORTSHOT_DESCRIPTOR_CONCEPTS_HPP
 
 #include <type_traits>
 #include <utility>
@@ -62,3 +63,5 @@ struct PartnersGetOwnShare<Voting, std::void_t<decltype(Voting::partners_get_own
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_DESCRIPTOR_CONCEPTS_HPP

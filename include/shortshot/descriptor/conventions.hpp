@@ -3,7 +3,8 @@
 //
 // There are two: that of the published SSH / SCSH code and that of SHOT as PCL computes it. A descriptor has one. A
 // convention owns its positions: the kernel asks it, and knows none of its rules.
-#pragma once
+#ifndef SHORTSHOT_DESCRIPTOR_CONVENTIONS_HPP
+#define SHORTSHOT_DESCRIPTOR_CONVENTIONS_HPP
 
 #include <cstdint>
 
@@ -172,3 +173,5 @@ struct HeightCells : PublishedCells {
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_DESCRIPTOR_CONVENTIONS_HPP

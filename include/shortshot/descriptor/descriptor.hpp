@@ -1,6 +1,7 @@
 // shortshot/descriptor/descriptor.hpp: what a descriptor is made of. Pure types: sizes, offsets and layout are
 // compile-time facts.
-#pragma once
+#ifndef SHORTSHOT_DESCRIPTOR_DESCRIPTOR_HPP
+#define SHORTSHOT_DESCRIPTOR_DESCRIPTOR_HPP
 
 #include <cstddef>
 #include <type_traits>
@@ -290,3 +291,5 @@ static_assert(Ssh32::size == 32 && Ssh96::size == 96 && Scsh336::size == 336 && 
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_DESCRIPTOR_DESCRIPTOR_HPP

@@ -1,5 +1,6 @@
 // shortshot/descriptor/exact_shells.hpp: distances that fall on the right side of a shell's border.
-#pragma once
+#ifndef SHORTSHOT_DESCRIPTOR_EXACT_SHELLS_HPP
+#define SHORTSHOT_DESCRIPTOR_EXACT_SHELLS_HPP
 
 #include <cstddef>
 
@@ -111,3 +112,5 @@ template <class Borders>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_DESCRIPTOR_EXACT_SHELLS_HPP

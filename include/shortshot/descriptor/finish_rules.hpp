@@ -1,6 +1,7 @@
 // shortshot/descriptor/finish_rules.hpp: how the sums of a part's cells become its values, and what the part weighs
 // beside the others. The whole descriptor has length 1 afterwards.
-#pragma once
+#ifndef SHORTSHOT_DESCRIPTOR_FINISH_RULES_HPP
+#define SHORTSHOT_DESCRIPTOR_FINISH_RULES_HPP
 
 #include "../base/simd.hpp"
 #include "../config.hpp"
@@ -76,3 +77,5 @@ struct SignedRoots {
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_DESCRIPTOR_FINISH_RULES_HPP

@@ -3,7 +3,8 @@
 //
 // All of it is integer arithmetic: shares are added up exactly, and indices need no conversion. A partner's share is
 // kept twice, in half units, because it is the distance from the bin's middle in units of half a bin.
-#pragma once
+#ifndef SHORTSHOT_DESCRIPTOR_INTERPOLATION_HPP
+#define SHORTSHOT_DESCRIPTOR_INTERPOLATION_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -114,3 +115,5 @@ template <int Axes>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend
+
+#endif  // SHORTSHOT_DESCRIPTOR_INTERPOLATION_HPP

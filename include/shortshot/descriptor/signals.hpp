@@ -1,6 +1,7 @@
 // shortshot/descriptor/signals.hpp: what a cell's histogram is about. A signal is one struct: its name, its bins, where
 // its values come from, and how a register of neighbors is measured.
-#pragma once
+#ifndef SHORTSHOT_DESCRIPTOR_SIGNALS_HPP
+#define SHORTSHOT_DESCRIPTOR_SIGNALS_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -275,3 +276,5 @@ template <class Signal, class... Signals>
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_DESCRIPTOR_SIGNALS_HPP

@@ -1,5 +1,6 @@
 // shortshot/descriptor/source_set.hpp: where the values of a descriptor's signals come from, all of them in one object.
-#pragma once
+#ifndef SHORTSHOT_DESCRIPTOR_SOURCE_SET_HPP
+#define SHORTSHOT_DESCRIPTOR_SOURCE_SET_HPP
 
 #include <type_traits>
 
@@ -106,3 +107,5 @@ template <class... Kinds>
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_DESCRIPTOR_SOURCE_SET_HPP

@@ -1,5 +1,6 @@
 // shortshot/descriptor/spherical_grid.hpp: the spherical grid of a part, and how wide its shells are.
-#pragma once
+#ifndef SHORTSHOT_DESCRIPTOR_SPHERICAL_GRID_HPP
+#define SHORTSHOT_DESCRIPTOR_SPHERICAL_GRID_HPP
 
 #include <cstddef>
 
@@ -65,3 +66,5 @@ struct LogRadius {
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_DESCRIPTOR_SPHERICAL_GRID_HPP

@@ -5,7 +5,8 @@
 // the sector) it lies in and the nearer neighboring one, its partner, with the share of each (interpolation.hpp).
 // combine() makes a list of votes from the shares of all axes: axis 0 radius, 1 elevation, 2 azimuth, and 3 the
 // histogram's signal where the part has one.
-#pragma once
+#ifndef SHORTSHOT_DESCRIPTOR_VOTING_HPP
+#define SHORTSHOT_DESCRIPTOR_VOTING_HPP
 
 #include <cstdint>
 
@@ -182,3 +183,5 @@ struct MultilinearVoting {
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_DESCRIPTOR_VOTING_HPP

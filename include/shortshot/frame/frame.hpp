@@ -1,5 +1,6 @@
 // shortshot/frame/frame.hpp: the SHOT local reference frame of a gathered neighborhood.
-#pragma once
+#ifndef SHORTSHOT_FRAME_FRAME_HPP
+#define SHORTSHOT_FRAME_FRAME_HPP
 
 #include <cstdint>
 
@@ -40,16 +41,6 @@ inline constexpr int min_frame_neighbors = 5;
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot
-
-namespace shortshot::extend {
-inline namespace SHORTSHOT_CODE {
-
-[[nodiscard]] inline float dot(const float (&a)[3], const float (&b)[3]) noexcept {
-  return (unfused(a[0] * b[0]) + unfused(a[2] * b[2])) + unfused(a[1] * b[1]);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::extend
 
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
@@ -297,3 +288,5 @@ template <class Neighbors>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_FRAME_FRAME_HPP

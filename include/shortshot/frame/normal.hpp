@@ -1,5 +1,6 @@
 // shortshot/frame/normal.hpp: the surface normal of a gathered neighborhood.
-#pragma once
+#ifndef SHORTSHOT_FRAME_NORMAL_HPP
+#define SHORTSHOT_FRAME_NORMAL_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -195,3 +196,5 @@ template <class Neighbors>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_FRAME_NORMAL_HPP

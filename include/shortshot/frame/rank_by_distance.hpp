@@ -2,7 +2,8 @@
 //
 // PCL sorts every neighborhood because a tied vote over an axis' sign looks at the five members in the middle. Ties
 // are rare (2 to 5 key points in a hundred), so the order is asked for only then, and found by counting.
-#pragma once
+#ifndef SHORTSHOT_FRAME_RANK_BY_DISTANCE_HPP
+#define SHORTSHOT_FRAME_RANK_BY_DISTANCE_HPP
 
 #include <cstdint>
 
@@ -60,3 +61,5 @@ template <class Neighbors>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_FRAME_RANK_BY_DISTANCE_HPP

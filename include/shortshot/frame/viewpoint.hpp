@@ -1,5 +1,6 @@
 // shortshot/frame/viewpoint.hpp: to which side of a surface normals and frames are turned.
-#pragma once
+#ifndef SHORTSHOT_FRAME_VIEWPOINT_HPP
+#define SHORTSHOT_FRAME_VIEWPOINT_HPP
 
 #include <cstdint>
 
@@ -68,3 +69,5 @@ template <class Neighbors>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_FRAME_VIEWPOINT_HPP

@@ -1,6 +1,7 @@
 // shortshot/kernel/accumulate.hpp: the kernel's second pass. A chunk of located neighbors is shared among the cells of
 // each part, and their votes are added up.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_ACCUMULATE_HPP
+#define SHORTSHOT_KERNEL_ACCUMULATE_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -237,3 +238,5 @@ constexpr std::size_t scratch_bytes(Descriptor<Voting, Parts...>) noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_ACCUMULATE_HPP

@@ -1,6 +1,7 @@
 // shortshot/kernel/accumulate_means.hpp: votes for a part's means: those of the cells themselves, and votes times the
 // values of signals.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_ACCUMULATE_MEANS_HPP
+#define SHORTSHOT_KERNEL_ACCUMULATE_MEANS_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -73,3 +74,5 @@ inline void divide_by_votes(float* values, const float* weights) noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_ACCUMULATE_MEANS_HPP

@@ -1,5 +1,6 @@
 // shortshot/kernel/chunk.hpp: the neighbors that go through the kernel together.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_CHUNK_HPP
+#define SHORTSHOT_KERNEL_CHUNK_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -35,3 +36,5 @@ struct Chunk {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_CHUNK_HPP

@@ -3,7 +3,8 @@
 // Neighbors go through in chunks, each chunk in passes over small arrays: locate (local spherical coordinates,
 // to_spherical.hpp), the distances of colors, and then for each part shares among cells (vote_shares.hpp), votes and
 // their addition (accumulate.hpp). Votes are integers, and so are their sums (fixed_point.hpp).
-#pragma once
+#ifndef SHORTSHOT_KERNEL_DESCRIBE_HPP
+#define SHORTSHOT_KERNEL_DESCRIBE_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -177,3 +178,5 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_KERNEL_DESCRIBE_HPP

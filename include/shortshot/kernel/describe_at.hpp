@@ -1,5 +1,6 @@
 // shortshot/kernel/describe_at.hpp: one key point from cloud to descriptor: search, frame and kernel in one call.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_DESCRIBE_AT_HPP
+#define SHORTSHOT_KERNEL_DESCRIBE_AT_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -204,3 +205,5 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Search, c
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_KERNEL_DESCRIBE_AT_HPP

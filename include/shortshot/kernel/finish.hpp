@@ -1,5 +1,6 @@
 // shortshot/kernel/finish.hpp: from the integers of all votes to values of L2 norm 1.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_FINISH_HPP
+#define SHORTSHOT_KERNEL_FINISH_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -82,3 +83,5 @@ template <class Voting, class... Parts, std::size_t... I>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_FINISH_HPP

@@ -1,5 +1,6 @@
 // shortshot/kernel/mean_color.hpp: the mean of a neighborhood's colors, with which signals of MeanColor compare.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_MEAN_COLOR_HPP
+#define SHORTSHOT_KERNEL_MEAN_COLOR_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -80,3 +81,5 @@ template <class LabRule, class Neighbors, class First, class... Others>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_MEAN_COLOR_HPP

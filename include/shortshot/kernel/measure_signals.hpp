@@ -1,7 +1,8 @@
 // shortshot/kernel/measure_signals.hpp: the values of a descriptor's signals, each in a row of the chunk. Most are
 // measured while neighbors are located, for they may leave a neighbor out; those that look at nothing but the index,
 // after that.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_MEASURE_SIGNALS_HPP
+#define SHORTSHOT_KERNEL_MEASURE_SIGNALS_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -131,3 +132,5 @@ inline void measure_all_by_index(SignalList<Signals...>, const Sources& sources,
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_MEASURE_SIGNALS_HPP

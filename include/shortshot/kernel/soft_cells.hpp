@@ -1,6 +1,7 @@
 // shortshot/kernel/soft_cells.hpp: soft votes where there is one lane: each to its cell. For speed every part has code
 // of its own; where code shall be small all of them share one loop over tables. The same bits.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_SOFT_CELLS_HPP
+#define SHORTSHOT_KERNEL_SOFT_CELLS_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -190,3 +191,5 @@ template <class Voting, class... Parts, std::size_t... I, class Chunk>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_SOFT_CELLS_HPP

@@ -1,6 +1,7 @@
 // shortshot/kernel/soft_layout.hpp: where the quads of a compact descriptor's parts are, see soft_votes.hpp; all of it
 // known while compiling.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_SOFT_LAYOUT_HPP
+#define SHORTSHOT_KERNEL_SOFT_LAYOUT_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -129,3 +130,5 @@ constexpr int quads_of() noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_SOFT_LAYOUT_HPP

@@ -1,6 +1,7 @@
 // shortshot/kernel/soft_shares.hpp: how points are shared among the cells around them where votes are soft. A point
 // lies between the middles of two cells on each axis, and votes for both.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_SOFT_SHARES_HPP
+#define SHORTSHOT_KERNEL_SOFT_SHARES_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -115,3 +116,5 @@ struct SoftShares {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_SOFT_SHARES_HPP

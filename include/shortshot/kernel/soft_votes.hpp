@@ -5,7 +5,8 @@
 // side by side, in a quad: one addition for four votes. Cells are so kept several times over, once for each quad they
 // belong to, and brought together at the end. And every lane has quads of its own: neighbors that follow each other lie
 // in the same cells, where each addition would wait for the one before.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_SOFT_VOTES_HPP
+#define SHORTSHOT_KERNEL_SOFT_VOTES_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -156,3 +157,5 @@ constexpr std::size_t soft_scratch_bytes() noexcept {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_SOFT_VOTES_HPP

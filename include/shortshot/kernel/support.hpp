@@ -1,5 +1,6 @@
 // shortshot/kernel/support.hpp: what is described around a key point.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_SUPPORT_HPP
+#define SHORTSHOT_KERNEL_SUPPORT_HPP
 
 #include "../config.hpp"
 #include "../frame/viewpoint.hpp"
@@ -32,3 +33,5 @@ inline namespace SHORTSHOT_CODE {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_SUPPORT_HPP

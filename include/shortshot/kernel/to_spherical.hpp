@@ -1,6 +1,7 @@
 // shortshot/kernel/to_spherical.hpp: the kernel's first pass. A chunk of neighbors goes from offsets in the cloud's
 // coordinates to spherical coordinates in the frame.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_TO_SPHERICAL_HPP
+#define SHORTSHOT_KERNEL_TO_SPHERICAL_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -133,3 +134,5 @@ template <class Cells, class Borders, class Neighbors, class Signals, class Chun
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_TO_SPHERICAL_HPP

@@ -1,6 +1,7 @@
 // shortshot/kernel/vote_shares.hpp: from where a chunk's neighbors lie to their shares among the cells of a part, and
 // their votes.
-#pragma once
+#ifndef SHORTSHOT_KERNEL_VOTE_SHARES_HPP
+#define SHORTSHOT_KERNEL_VOTE_SHARES_HPP
 
 #include <cstdint>
 
@@ -82,3 +83,5 @@ template <class Voting, class Part, class Chunk>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_VOTE_SHARES_HPP

@@ -1,5 +1,6 @@
 // shortshot/search/cell_box.hpp: the box of cells under a grid search, of bounded size whatever the cloud.
-#pragma once
+#ifndef SHORTSHOT_SEARCH_CELL_BOX_HPP
+#define SHORTSHOT_SEARCH_CELL_BOX_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -255,3 +256,5 @@ inline void fit_box(const Extent& extent, float cell_size, std::size_t capacity,
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_SEARCH_CELL_BOX_HPP

@@ -1,5 +1,6 @@
 // shortshot/search/cell_sort.hpp: a cloud's points sorted into the cells of a box, and the search among them.
-#pragma once
+#ifndef SHORTSHOT_SEARCH_CELL_SORT_HPP
+#define SHORTSHOT_SEARCH_CELL_SORT_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -264,5 +265,14 @@ class Grid {
   Status status_;
 };
 
+/// A grid's gather() as a function of its own.
+template <class Index, class Neighbors>
+[[nodiscard]] inline Status gather_from(const Grid<Index>& grid, const GridContents<Index>& contents,
+                                        const Point& center, Radius radius, Neighbors& out) noexcept {
+  return grid.gather(contents, center, radius, out);
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_SEARCH_CELL_SORT_HPP

@@ -1,5 +1,6 @@
 // shortshot/search/neighborhood.hpp: the neighbors of one key point, in memory that somebody else owns.
-#pragma once
+#ifndef SHORTSHOT_SEARCH_NEIGHBORHOOD_HPP
+#define SHORTSHOT_SEARCH_NEIGHBORHOOD_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -124,3 +125,5 @@ using Collector = std::conditional_t<detail::small_code, Neighbors&, Neighbors>;
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend
+
+#endif  // SHORTSHOT_SEARCH_NEIGHBORHOOD_HPP

@@ -1,5 +1,6 @@
 // shortshot/search/offer.hpp: how a search fills a neighborhood, and the one rule of who belongs to it.
-#pragma once
+#ifndef SHORTSHOT_SEARCH_OFFER_HPP
+#define SHORTSHOT_SEARCH_OFFER_HPP
 
 #include <cstdint>
 
@@ -52,3 +53,5 @@ template <class Neighbors>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend
+
+#endif  // SHORTSHOT_SEARCH_OFFER_HPP

@@ -1,5 +1,6 @@
 // shortshot/search/offer_run.hpp: a run of points offered to a neighborhood, a register of them at a time.
-#pragma once
+#ifndef SHORTSHOT_SEARCH_OFFER_RUN_HPP
+#define SHORTSHOT_SEARCH_OFFER_RUN_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -88,3 +89,5 @@ inline void offer_run(const SortedPoints<Index>& points, std::size_t i, std::siz
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_SEARCH_OFFER_RUN_HPP

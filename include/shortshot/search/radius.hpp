@@ -1,5 +1,6 @@
 // shortshot/search/radius.hpp: the support radius.
-#pragma once
+#ifndef SHORTSHOT_SEARCH_RADIUS_HPP
+#define SHORTSHOT_SEARCH_RADIUS_HPP
 
 #include <cstdint>
 
@@ -41,3 +42,5 @@ inline namespace SHORTSHOT_CODE {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_SEARCH_RADIUS_HPP

@@ -1,5 +1,6 @@
 // shortshot/search/search.hpp: what a search is.
-#pragma once
+#ifndef SHORTSHOT_SEARCH_SEARCH_HPP
+#define SHORTSHOT_SEARCH_SEARCH_HPP
 
 #include <cstddef>
 #include <type_traits>
@@ -53,3 +54,5 @@ template <class Search>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_SEARCH_SEARCH_HPP

@@ -1,5 +1,6 @@
 // shortshot/search/workspace.hpp: the memory of a neighborhood, sized at compile time and owned by the caller.
-#pragma once
+#ifndef SHORTSHOT_SEARCH_WORKSPACE_HPP
+#define SHORTSHOT_SEARCH_WORKSPACE_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -59,3 +60,5 @@ template <std::size_t MaxNeighbors, class Index>
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
+
+#endif  // SHORTSHOT_SEARCH_WORKSPACE_HPP

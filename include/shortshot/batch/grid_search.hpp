@@ -1,4 +1,4 @@
-// shortshot/search/grid_search.hpp: the fixed-radius grid with memory of its own. Hosted only: build allocates.
+// shortshot/batch/grid_search.hpp: the fixed-radius grid with memory of its own. Hosted only: build allocates.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,11 @@
 
 #include "../cloud/cloud.hpp"
 #include "../config.hpp"
+#include "../dispatch/widest.hpp"
+#include "../search/cell_sort.hpp"
+#include "../search/neighborhood.hpp"
+#include "../search/radius.hpp"
 #include "../status.hpp"
-#include "cell_index.hpp"
-#include "neighborhood.hpp"
-#include "radius.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
@@ -42,8 +43,8 @@ class GridSearch {
     const std::size_t cells = 4 * points + 4096;
     if (cell_end_.size() < planning_cells) cell_end_.resize(planning_cells);
     grid_ = {};  // and so it stays if there is no memory
-    detail::Grid<std::uint32_t> next{};
-    if (next.plan(cloud, radius, {nullptr, cell_end_.data(), nullptr, points, cells}) != Status::ok) {
+    detail::HostGrid next{};
+    if (detail::plan_widest(next, cloud, radius, {nullptr, cell_end_.data(), nullptr, points, cells}) != Status::ok) {
       grid_ = next;
       return next.status();
     }
@@ -55,7 +56,7 @@ class GridSearch {
       xyz_.resize(3 * next.size());
     }
     if (cell_end_.size() < next.cells()) cell_end_.resize(next.cells());
-    next.sort(cloud, {order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cell_end_.size()});
+    detail::sort_widest(next, cloud, {order_.data(), cell_end_.data(), xyz_.data(), order_.size(), cell_end_.size()});
     grid_ = next;
     return Status::ok;
   }
@@ -65,7 +66,7 @@ class GridSearch {
 
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
-    return grid_.gather({order_.data(), cell_end_.data(), xyz_.data()}, center, radius, out);
+    return detail::gather_widest(grid_, {order_.data(), cell_end_.data(), xyz_.data()}, center, radius, out);
   }
 
  private:
@@ -78,7 +79,7 @@ class GridSearch {
     xyz_.swap(other.xyz_);
   }
 
-  detail::Grid<std::uint32_t> grid_{};
+  detail::HostGrid grid_{};
   std::vector<std::uint32_t> order_;
   std::vector<std::uint32_t> cell_end_;
   std::vector<float> xyz_;
