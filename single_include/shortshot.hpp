@@ -89,31 +89,21 @@
 #ifndef SHORTSHOT_DISPATCH_HOT_KERNEL_HPP
 #define SHORTSHOT_DISPATCH_HOT_KERNEL_HPP
 
-// shortshot/descriptor/compact.hpp: compact descriptors. They find more than the published ones in a fraction of the
-// bytes: one pass of soft votes in SHOT's frame, nothing learned.
+// shortshot/cloud/voxel_lanes.hpp: in which voxel a point is, a register of points at a time.
+#ifndef SHORTSHOT_CLOUD_VOXEL_LANES_HPP
+#define SHORTSHOT_CLOUD_VOXEL_LANES_HPP
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+// shortshot/base/simd.hpp: the thin lane shim. Every pass of the kernel is written once, in terms of F32, I32 and Mask;
+// the compiler's own macros choose what they are: AVX2, SSE2, NEON (aarch64) or one lane at a time.
 //
-// What they are made of: cells are slices of height over the tangent plane; every vote is shared among all cells around
-// it (MultilinearVoting); colors are compared with the mean of the neighborhood's, along L, a and b and with their
-// signs; square roots keep crowded cells from deciding alone; and each kind of part has a length of its own. They are
-// to be stored in four bits a value: the bytes in their names. Best in a frame whose z axis is turned to the camera
-// (Support::viewpoint); without a viewpoint it is SHOT's own.
-//
-// The formulas below speak of neighbors within the radius, W of them, copies of the key point left out. In the frame
-// one lies at (x, y, z) and at the distance d:
-//
-//     u = d / radius                          along the radius: shells, from the key point outwards
-//     e = 1/2 - z / radius, cut off to 0..1   along the height: slices, from half a radius above the tangent plane down
-//     a = (atan2(y, x) + pi) / (2 pi)         along the azimuth: sectors, from -x counter-clockwise
-//     dL, da, db                              its color (CIELAB, PublishedLab) less the mean of all within the radius,
-//                                             where the key point and its copies count too
-//
-// On an axis of n cells a place from 0 to 1, times n, is t. Cell i = floor(t) (n - 1 at most) has the share f + 1/2 of
-// the vote if f = t - i is at most 1/2, and cell i - 1 has the rest; else 3/2 - f, and cell i + 1 has the rest.
-// Azimuths go around; beyond the other axes' ends the rest stays in cell i. The share w of a cell (r, e, a) of a grid
-// of R x E x A cells, or of a bin in it, is the product over all axes: those of one neighbor add up to 1. A sum without
-// bounds is over the neighbors.
-#ifndef SHORTSHOT_DESCRIPTOR_COMPACT_HPP
-#define SHORTSHOT_DESCRIPTOR_COMPACT_HPP
+// All operations are exactly rounded IEEE single precision or pure bit moves, and every accumulation in the kernel is
+// an integer sum (fixed_point.hpp), so that the number of lanes never changes a result.
+#ifndef SHORTSHOT_BASE_SIMD_HPP
+#define SHORTSHOT_BASE_SIMD_HPP
 
 // shortshot/config.hpp: the macros the library sets. Options are template parameters. There is one macro for you to
 // set, which changes no result: with -DSHORTSHOT_NO_DISPATCH the library keeps to the instructions that the compiler
@@ -228,32 +218,6 @@ using namespace extend;
 }  // namespace shortshot
 #endif  // SHORTSHOT_CONFIG_HPP
 
-// shortshot/descriptor/conventions.hpp: the conventions of cells: who is described, where cells begin, on which side a
-// border lies, how cells are laid out.
-//
-// There are two: that of the published SSH / SCSH code and that of SHOT as PCL computes it. A descriptor has one. A
-// convention owns its positions: the kernel asks it, and knows none of its rules.
-#ifndef SHORTSHOT_DESCRIPTOR_CONVENTIONS_HPP
-#define SHORTSHOT_DESCRIPTOR_CONVENTIONS_HPP
-
-#include <cstdint>
-
-// shortshot/base/math.hpp: the few functions the kernel needs beyond + - * / sqrt, with the same bits on every machine.
-//
-// libm's atan2f, acosf, cbrtf and logf differ from one libm to the next; these do not, and they work on lanes.
-#ifndef SHORTSHOT_BASE_MATH_HPP
-#define SHORTSHOT_BASE_MATH_HPP
-
-#include <cstring>
-
-// shortshot/base/simd.hpp: the thin lane shim. Every pass of the kernel is written once, in terms of F32, I32 and Mask;
-// the compiler's own macros choose what they are: AVX2, SSE2, NEON (aarch64) or one lane at a time.
-//
-// All operations are exactly rounded IEEE single precision or pure bit moves, and every accumulation in the kernel is
-// an integer sum (fixed_point.hpp), so that the number of lanes never changes a result.
-#ifndef SHORTSHOT_BASE_SIMD_HPP
-#define SHORTSHOT_BASE_SIMD_HPP
-
 // shortshot/base/quad.hpp: four integers side by side in memory, for all lane shims.
 #ifndef SHORTSHOT_BASE_QUAD_HPP
 #define SHORTSHOT_BASE_QUAD_HPP
@@ -327,8 +291,6 @@ inline constexpr float whole_numbers = 12582912.0f;
 #define SHORTSHOT_BASE_SIMD_AVX2_HPP
 
 #include <immintrin.h>
-
-#include <cstddef>
 
 namespace shortshot::extend::simd {
 inline namespace SHORTSHOT_CODE {
@@ -534,8 +496,6 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
 
 #include <emmintrin.h>
 
-#include <cstddef>
-
 namespace shortshot::extend::simd {
 inline namespace SHORTSHOT_CODE {
 
@@ -722,8 +682,6 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
 
 #include <arm_neon.h>
 
-#include <cstddef>
-
 namespace shortshot::extend::simd {
 inline namespace SHORTSHOT_CODE {
 
@@ -908,7 +866,7 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
 #ifndef SHORTSHOT_BASE_SIMD_SCALAR_HPP
 #define SHORTSHOT_BASE_SIMD_SCALAR_HPP
 
-#include <cstddef>
+#include <cstring>
 
 namespace shortshot::extend::simd {
 inline namespace SHORTSHOT_CODE {
@@ -1144,118 +1102,12 @@ SHORTSHOT_INLINE void each(Function f) noexcept {
 
 #endif  // SHORTSHOT_BASE_UNROLL_HPP
 
-namespace shortshot::extend::math {
-inline namespace SHORTSHOT_CODE {
-
-/// A number's bits, and the number that has these bits.
-[[nodiscard]] inline std::uint32_t bits_of(float value) noexcept {
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &value, sizeof bits);
-  return bits;
-}
-[[nodiscard]] inline float float_of(std::uint32_t bits) noexcept {
-  float value = 0.0f;
-  std::memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-/// True for finite numbers, by the exponent bits: holds under -ffast-math too, where comparisons with NaN do not.
-[[nodiscard]] inline bool is_finite(float value) noexcept { return (bits_of(value) & 0x7F800000u) != 0x7F800000u; }
-
-[[nodiscard]] inline bool is_finite(const float (&v)[3]) noexcept {
-  for (const float component : v) {
-    if (!is_finite(component)) return false;
-  }
-  return true;
-}
-
-/// The least number with all of a float's bits, 2^-126.
-inline constexpr float least_normal = 1.17549435e-38f;
-
-/// The angle of (far, near), both >= 0, in turns and less a quarter turn: -1/4 to 0, within 6e-8. A minimax fit with
-/// both ends exact, because points on axes and diagonals lie on the borders of cells. Of (0, 0), or of what is not
-/// finite: -1/4.
-[[nodiscard]] inline simd::F32 angle_below_quarter(simd::F32 far, simd::F32 near) noexcept {
-  using simd::all;
-  constexpr float fit[] = {0.00106037291698158f, -0.00527749117463827f, 0.0125921480357647f, -0.0210182461887598f,
-                           0.0315139554440975f,  -0.0530250333249569f,  0.159154295921326f};
-  // The tangent of the angle minus an eighth of a turn; -1 of (0, 0), and nobody divides by zero.
-  const simd::F32 f = simd::max(far, all(least_normal));
-  const simd::F32 t = (near - f) / (near + f);
-  const simd::F32 s = t * t;
-  simd::F32 p = all(fit[0]);
-  detail::each<6>([&](auto k) SHORTSHOT_INLINE_LAMBDA { p = p * s + all(fit[k + 1]); });
-  return p * t - all(0.125f);
-}
-
-/// The angle from the z axis, 0 at z > 0 to 1 at z < 0 (theta / pi); rho >= 0 is the distance from the axis.
-[[nodiscard]] inline simd::F32 elevation(simd::F32 rho, simd::F32 z) noexcept {
-  const simd::F32 before_equator = angle_below_quarter(simd::abs(z), rho);
-  return simd::all(0.5f) + simd::flip_sign(before_equator + before_equator, z);
-}
-
-/// (atan2(y, x) + pi) / 2 pi in [0, 1]: 1 for y = 0, x < 0.
-[[nodiscard]] inline simd::F32 azimuth(simd::F32 x, simd::F32 y) noexcept {
-  using simd::all;
-  const simd::F32 before_quarter = angle_below_quarter(simd::abs(x), simd::abs(y));
-  const simd::F32 half = all(0.25f) + simd::negate(x < all(0.0f), before_quarter);  // 0 to 1/2
-  return all(0.5f) + simd::negate(y < all(0.0f), half);
-}
-
-/// Natural logarithm of a positive normal number, absolute error below 2e-7 near 1, relative below 2e-7 elsewhere.
-[[nodiscard]] inline float log(float value) noexcept {
-  const std::uint32_t bits = bits_of(value);
-  // Exponent such that the mantissa m lies in [sqrt(1/2), sqrt(2)): the series below is symmetric about 1.
-  const std::int32_t exponent = static_cast<std::int32_t>((bits + 0x004AFB0Du) >> 23) - 127;
-  const float m = float_of(bits - (static_cast<std::uint32_t>(exponent) << 23));
-  const float s = (m - 1.0f) / (m + 1.0f);  // ln m = 2 artanh s, |s| < 0.172
-  const float s2 = s * s;
-  const float artanh =
-      s + unfused(s * s2 *
-                  (0.333333333f + unfused(s2 * (0.2f + unfused(s2 * (0.142857143f + unfused(s2 * 0.111111111f)))))));
-  return unfused(static_cast<float>(exponent) * 0.693147181f) + unfused(2.0f * artanh);
-}
-
-/// The largest power of two not above a positive normal number.
-[[nodiscard]] inline float power_of_two_below(float value) noexcept { return float_of(bits_of(value) & 0x7F800000u); }
-
-/// The nearest multiple of a quantum, of a number not above R for a splitter of 12288 R: products of two such numbers,
-/// and sums of three products, are exact.
-[[nodiscard]] SHORTSHOT_INLINE simd::F32 coarse(simd::F32 value, float splitter) noexcept {
-  return (value + simd::all(splitter)) - simd::all(splitter);
-}
-
-/// How much longer a vector is than `length`, which is about as long as it and given as the sum of a coarse() number
-/// and a small rest: to some bits more than a float of the length itself has. Squares of coarse parts cancel exactly.
-[[nodiscard]] SHORTSHOT_INLINE simd::F32 length_beyond(simd::F32 x, simd::F32 y, simd::F32 z, simd::F32 coarse_length,
-                                                       simd::F32 rest, float splitter) noexcept {
-  using simd::F32;
-  const F32 of[3] = {x, y, z};
-  F32 exact = simd::all(0.0f) - coarse_length * coarse_length;
-  F32 small = simd::all(0.0f) - rest * (coarse_length + coarse_length + rest);
-  detail::each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
-    const F32 part = coarse(of[k], splitter);
-    exact = exact + part * part;
-    small = small + (of[k] - part) * (of[k] + part);
-  });
-  return (exact + small) / (coarse_length + coarse_length);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::extend::math
-
-#endif  // SHORTSHOT_BASE_MATH_HPP
-
-// shortshot/cloud/point_lanes.hpp: the points of one register.
-#ifndef SHORTSHOT_CLOUD_POINT_LANES_HPP
-#define SHORTSHOT_CLOUD_POINT_LANES_HPP
-
-#include <cstddef>
-
 // shortshot/cloud/cloud.hpp: the only door for point clouds. A CloudView borrows the user's own memory, whatever its
 // layout.
 #ifndef SHORTSHOT_CLOUD_CLOUD_HPP
 #define SHORTSHOT_CLOUD_CLOUD_HPP
+
+#include <cstring>
 
 // shortshot/status.hpp: the one way in which the library reports that something is wrong.
 #ifndef SHORTSHOT_STATUS_HPP
@@ -1553,9 +1405,121 @@ template <class Scalar>
 
 #endif  // SHORTSHOT_CLOUD_CLOUD_HPP
 
+// shortshot/cloud/point_lanes.hpp: the points of one register.
+#ifndef SHORTSHOT_CLOUD_POINT_LANES_HPP
+#define SHORTSHOT_CLOUD_POINT_LANES_HPP
+
 // shortshot/cloud/read.hpp: what a view says of one point.
 #ifndef SHORTSHOT_CLOUD_READ_HPP
 #define SHORTSHOT_CLOUD_READ_HPP
+
+// shortshot/base/math.hpp: the few functions the kernel needs beyond + - * / sqrt, with the same bits on every machine.
+//
+// libm's atan2f, acosf, cbrtf and logf differ from one libm to the next; these do not, and they work on lanes.
+#ifndef SHORTSHOT_BASE_MATH_HPP
+#define SHORTSHOT_BASE_MATH_HPP
+
+namespace shortshot::extend::math {
+inline namespace SHORTSHOT_CODE {
+
+/// A number's bits, and the number that has these bits.
+[[nodiscard]] inline std::uint32_t bits_of(float value) noexcept {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &value, sizeof bits);
+  return bits;
+}
+[[nodiscard]] inline float float_of(std::uint32_t bits) noexcept {
+  float value = 0.0f;
+  std::memcpy(&value, &bits, sizeof value);
+  return value;
+}
+
+/// True for finite numbers, by the exponent bits: holds under -ffast-math too, where comparisons with NaN do not.
+[[nodiscard]] inline bool is_finite(float value) noexcept { return (bits_of(value) & 0x7F800000u) != 0x7F800000u; }
+
+[[nodiscard]] inline bool is_finite(const float (&v)[3]) noexcept {
+  for (const float component : v) {
+    if (!is_finite(component)) return false;
+  }
+  return true;
+}
+
+/// The least number with all of a float's bits, 2^-126.
+inline constexpr float least_normal = 1.17549435e-38f;
+
+/// The angle of (far, near), both >= 0, in turns and less a quarter turn: -1/4 to 0, within 6e-8. A minimax fit with
+/// both ends exact, because points on axes and diagonals lie on the borders of cells. Of (0, 0), or of what is not
+/// finite: -1/4.
+[[nodiscard]] inline simd::F32 angle_below_quarter(simd::F32 far, simd::F32 near) noexcept {
+  using simd::all;
+  constexpr float fit[] = {0.00106037291698158f, -0.00527749117463827f, 0.0125921480357647f, -0.0210182461887598f,
+                           0.0315139554440975f,  -0.0530250333249569f,  0.159154295921326f};
+  // The tangent of the angle minus an eighth of a turn; -1 of (0, 0), and nobody divides by zero.
+  const simd::F32 f = simd::max(far, all(least_normal));
+  const simd::F32 t = (near - f) / (near + f);
+  const simd::F32 s = t * t;
+  simd::F32 p = all(fit[0]);
+  detail::each<6>([&](auto k) SHORTSHOT_INLINE_LAMBDA { p = p * s + all(fit[k + 1]); });
+  return p * t - all(0.125f);
+}
+
+/// The angle from the z axis, 0 at z > 0 to 1 at z < 0 (theta / pi); rho >= 0 is the distance from the axis.
+[[nodiscard]] inline simd::F32 elevation(simd::F32 rho, simd::F32 z) noexcept {
+  const simd::F32 before_equator = angle_below_quarter(simd::abs(z), rho);
+  return simd::all(0.5f) + simd::flip_sign(before_equator + before_equator, z);
+}
+
+/// (atan2(y, x) + pi) / 2 pi in [0, 1]: 1 for y = 0, x < 0.
+[[nodiscard]] inline simd::F32 azimuth(simd::F32 x, simd::F32 y) noexcept {
+  using simd::all;
+  const simd::F32 before_quarter = angle_below_quarter(simd::abs(x), simd::abs(y));
+  const simd::F32 half = all(0.25f) + simd::negate(x < all(0.0f), before_quarter);  // 0 to 1/2
+  return all(0.5f) + simd::negate(y < all(0.0f), half);
+}
+
+/// Natural logarithm of a positive normal number, absolute error below 2e-7 near 1, relative below 2e-7 elsewhere.
+[[nodiscard]] inline float log(float value) noexcept {
+  const std::uint32_t bits = bits_of(value);
+  // Exponent such that the mantissa m lies in [sqrt(1/2), sqrt(2)): the series below is symmetric about 1.
+  const std::int32_t exponent = static_cast<std::int32_t>((bits + 0x004AFB0Du) >> 23) - 127;
+  const float m = float_of(bits - (static_cast<std::uint32_t>(exponent) << 23));
+  const float s = (m - 1.0f) / (m + 1.0f);  // ln m = 2 artanh s, |s| < 0.172
+  const float s2 = s * s;
+  const float artanh =
+      s + unfused(s * s2 *
+                  (0.333333333f + unfused(s2 * (0.2f + unfused(s2 * (0.142857143f + unfused(s2 * 0.111111111f)))))));
+  return unfused(static_cast<float>(exponent) * 0.693147181f) + unfused(2.0f * artanh);
+}
+
+/// The largest power of two not above a positive normal number.
+[[nodiscard]] inline float power_of_two_below(float value) noexcept { return float_of(bits_of(value) & 0x7F800000u); }
+
+/// The nearest multiple of a quantum, of a number not above R for a splitter of 12288 R: products of two such numbers,
+/// and sums of three products, are exact.
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 coarse(simd::F32 value, float splitter) noexcept {
+  return (value + simd::all(splitter)) - simd::all(splitter);
+}
+
+/// How much longer a vector is than `length`, which is about as long as it and given as the sum of a coarse() number
+/// and a small rest: to some bits more than a float of the length itself has. Squares of coarse parts cancel exactly.
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 length_beyond(simd::F32 x, simd::F32 y, simd::F32 z, simd::F32 coarse_length,
+                                                       simd::F32 rest, float splitter) noexcept {
+  using simd::F32;
+  const F32 of[3] = {x, y, z};
+  F32 exact = simd::all(0.0f) - coarse_length * coarse_length;
+  F32 small = simd::all(0.0f) - rest * (coarse_length + coarse_length + rest);
+  detail::each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+    const F32 part = coarse(of[k], splitter);
+    exact = exact + part * part;
+    small = small + (of[k] - part) * (of[k] + part);
+  });
+  return (exact + small) / (coarse_length + coarse_length);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::math
+
+#endif  // SHORTSHOT_BASE_MATH_HPP
 
 namespace shortshot::extend {
 inline namespace SHORTSHOT_CODE {
@@ -1718,6 +1682,483 @@ template <class Function>
 }  // namespace shortshot::extend
 
 #endif  // SHORTSHOT_CLOUD_POINT_LANES_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Points in their voxels, which lie on a grid through the origin. Voxel numbers stay floats: whole numbers, exact up
+/// to 2^24 voxels from the origin, as the coordinates are; infinite beyond float's range, where all points share one.
+struct VoxelLanes {
+  simd::F32 number[3];  ///< never -0
+  simd::F32 place[3];   ///< in the voxel, from its corner, in voxels
+  simd::F32 d2;         ///< to the voxel's center, in voxels
+};
+
+[[nodiscard]] inline simd::F32 floor_of(simd::F32 position) noexcept {
+  if (every(simd::all(4194304.0f) > simd::abs(position))) {  // 2^22
+    const simd::F32 whole = simd::to_whole(position);
+    return whole - keep(whole > position, simd::all(1.0f));
+  }
+  return simd::map([](float a) { return __builtin_floorf(a); }, position) + simd::all(0.0f);
+}
+
+[[nodiscard]] inline VoxelLanes voxels_of(const PointLanes& points, float leaf) noexcept {
+  VoxelLanes voxels;
+  const simd::F32 coordinates[3] = {points.x, points.y, points.z};
+  simd::F32 squares[3];
+  unroll<3>([&](auto axis) {
+    const simd::F32 position = coordinates[axis] / simd::all(leaf);
+    voxels.number[axis] = floor_of(position);
+    const simd::Mask finite = simd::all(HUGE_VALF) > simd::abs(position);
+    voxels.place[axis] = keep(finite, position) - keep(finite, voxels.number[axis]);
+    const simd::F32 from_center = voxels.place[axis] - simd::all(0.5f);
+    squares[axis] = from_center * from_center;
+  });
+  voxels.d2 = (squares[0] + squares[1]) + squares[2];
+  return voxels;
+}
+
+/// Points that are placed at once.
+inline constexpr std::size_t voxel_block = 256;
+
+/// Points [begin, begin + voxel_block) of a cloud, as far as there are any: their voxels' numbers, and the squared
+/// distances to the voxels' centers, -1 for what is no point. Returns how many that are.
+inline std::size_t place_in_voxels(const CloudView& cloud, float leaf, std::size_t begin,
+                                   float (&number)[3][voxel_block], float (&d2)[voxel_block]) noexcept {
+  static_assert(voxel_block % simd::lanes == 0, "whole registers");
+  const std::size_t left = cloud.size - begin;
+  const std::size_t size = left < voxel_block ? left : voxel_block;
+  const Float3Channel channel = cloud.points;
+  for (std::size_t i = 0; i < size; i += simd::lanes) {
+    const bool whole = size - i >= simd::lanes;
+    const std::size_t first = begin + i;
+    PointLanes points =
+        whole ? read_lanes(channel, [first](std::size_t lane) { return first + lane; })
+              : read_lanes(channel, [=](std::size_t lane) { return i + lane < size ? first + lane : first; });
+    const simd::Mask valid = is_finite(points);
+    simd::store(d2 + i, simd::all(-1.0f));
+    if (!any(valid)) continue;
+    if (!every(valid)) points = {keep(valid, points.x), keep(valid, points.y), keep(valid, points.z)};
+    const VoxelLanes voxels = voxels_of(points, leaf);
+    unroll<3>([&](auto axis) { simd::store(number[axis] + i, voxels.number[axis]); });
+    simd::store(d2 + i, select(valid, voxels.d2, simd::all(-1.0f)));
+  }
+  return size;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_CLOUD_VOXEL_LANES_HPP
+
+// shortshot/color/lab_lanes.hpp: sRGB bytes -> CIELAB, a register of colors at a time, by a table of roots.
+#ifndef SHORTSHOT_COLOR_LAB_LANES_HPP
+#define SHORTSHOT_COLOR_LAB_LANES_HPP
+
+// shortshot/color/lab.hpp: sRGB bytes -> CIELAB, and the color distance of CSHOT and SCSH.
+//
+// Both existing codes quantize the CIE ratios to 1/4000 and look their cube root up in a table of 4000 entries; here
+// the same quantized ratio goes through a computed root, so that 16 KB of tables are not needed and pure white, which
+// reads past the end of both tables, is defined (in PclLab, too: as what PCL was seen to read there).
+#ifndef SHORTSHOT_COLOR_LAB_HPP
+#define SHORTSHOT_COLOR_LAB_HPP
+
+// shortshot/color/fixed_power.hpp: the roots of CIELAB, in integers: half the instructions of a float version that is
+// as good, a fortieth where there is no FPU, and nothing that could round differently elsewhere.
+#ifndef SHORTSHOT_COLOR_FIXED_POWER_HPP
+#define SHORTSHOT_COLOR_FIXED_POWER_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// t^p of a fixed p below 1/2, for t from 2^-7 up to 2. With t = m 2^e, m from 1/2 to 1, and z = m - 1:
+/// t^p = (1 + z (c0 + z (c1 + ... + z c9))) 2^(e p).
+struct FixedPower {
+  std::int32_t fit[10];     ///< c0 to c9 in units of 2^-32: ((1 + z)^p - 1) / z at Chebyshev nodes
+  std::uint32_t octave[8];  ///< 2^(e p) in units of 2^-31, from e = -6 on
+
+  /// In units of 2^-31, of the float that has these bits.
+  [[nodiscard]] std::uint32_t fixed(std::uint32_t bits) const noexcept {
+    const auto z = static_cast<std::int32_t>(bits << 8 | 0x80000000u);  // in units of 2^-32
+    std::int32_t sum = fit[9];
+    each<9>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sum = fit[8 - k] + upper_half(sum, z); });
+    const auto power = static_cast<std::uint32_t>(upper_half(sum, z) + 1);  // modulo 1; rounded up, as the rest is down
+    return static_cast<std::uint32_t>((std::uint64_t{power} * octave[(bits >> 23) - 120u]) >> 32);
+  }
+
+  /// Within 2e-9 before it is rounded to float, once: of the 3965 numbers k / 4000 that CIELAB asks for, all but 18 are
+  /// the float that is closest, and those are the next one.
+  [[nodiscard]] float operator()(float t) const noexcept {
+    return unfused(static_cast<float>(fixed(math::bits_of(t))) * (1.0f / 2147483648.0f));
+  }
+
+ private:
+  [[nodiscard]] static std::int32_t upper_half(std::int32_t a, std::int32_t b) noexcept {
+    return static_cast<std::int32_t>((std::int64_t{a} * b) >> 32);  // towards minus infinity, as simd::shift_right()
+  }
+};
+
+inline constexpr FixedPower cube_root{
+    {1431655764, -477219117, 265086957, -177611235, 118766867, -177798683, -243108994, -883031911, -1088405058,
+     -784821837},
+    {536870912u, 676414963u, 852229450u, 1073741824u, 1352829926u, 1704458901u, 2147483648u, 2705659852u}};
+
+/// t^0.3333, as the published SSH / SCSH code has it.
+inline constexpr FixedPower published_root{
+    {1431512598, -477195254, 265079000, -177608167, 118765444, -177800906, -243118475, -883057088, -1088438257,
+     -784843915},
+    {536945343u, 676493110u, 852308217u, 1073816253u, 1352892442u, 1704498283u, 2147483648u, 2705597339u}};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_COLOR_FIXED_POWER_HPP
+
+// shortshot/color/srgb.hpp: sRGB's gamma undone, by a table of 1 KB or, where code shall be small, without: the same
+// bits.
+#ifndef SHORTSHOT_COLOR_SRGB_HPP
+#define SHORTSHOT_COLOR_SRGB_HPP
+
+#include <array>
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// n-th root by Newton's iteration, for tables that are built while compiling; never called at run time.
+constexpr double nth_root(double value, int n) noexcept {
+  double root = 1.0;
+  for (int step = 0; step < 100; ++step) {
+    double power = 1.0;
+    for (int k = 1; k < n; ++k) power *= root;
+    const double next = ((n - 1) * root + value / power) / n;
+    if (next == root) break;
+    root = next;
+  }
+  return root;
+}
+
+/// Natural logarithm of 0.05 <= value <= 1 to 1e-6, likewise only while compiling: ln v = 2 artanh((v - 1) / (v + 1)).
+constexpr double log_series(double value) noexcept {
+  const double s = (value - 1.0) / (value + 1.0);
+  double power = s;
+  double sum = 0.0;
+  for (int k = 1; k < 120; k += 2) {
+    sum += power / k;
+    power *= s * s;
+  }
+  return 2.0 * sum;
+}
+
+/// A power of 2.4 with the existing codes' own roundings, because one bit more or less would move some ratios across a
+/// step of their tables: the base is a float, and so is the exponent.
+constexpr float srgb_power(float number) noexcept {
+  const double base = static_cast<double>(number);
+  const double excess = static_cast<double>(2.4f) - 2.4;
+  return static_cast<float>(base * base * nth_root(base * base, 5) * (1.0 + excess * log_series(base)));
+}
+
+constexpr std::array<float, 256> make_srgb_to_linear() noexcept {
+  std::array<float, 256> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const float c = static_cast<float>(i) / 255.0f;
+    table[i] = c > 0.04045f ? srgb_power((c + 0.055f) / 1.055f) : c / 12.92f;
+  }
+  return table;
+}
+
+inline constexpr std::array<float, 256> srgb_to_linear = make_srgb_to_linear();
+
+inline constexpr FixedPower srgb_root{
+    {1717987336, -515393476, 275016773, -175895406, 155978275, 49167834, 531163086, 686271253, 616103588, 0},
+    {406871906u, 536870735u, 708405228u, 934746364u, 1233405304u, 1627488163u, 2147483648u, 2833621849u}};
+
+/// The same power of a number from 1/16 to 1 without double: the square of its mantissa times srgb_root of it, whose p
+/// is 2.4 - 2. Of all 245 numbers that the gamma has, each has the table's bits.
+[[nodiscard]] inline float small_srgb_power(float base) noexcept {
+  const std::uint32_t bits = math::bits_of(base);
+  const std::uint32_t mantissa = bits << 8 | 0x80000000u;
+  const auto square = static_cast<std::uint32_t>((std::uint64_t{mantissa} * mantissa) >> 32);
+  const std::uint64_t product = std::uint64_t{srgb_root.fixed(bits)} * square;  // in units of 2^-63
+  const auto high = static_cast<std::uint32_t>(product >> 32);
+  const int zeros = __builtin_clz(high);  // 1 to 4
+  const auto digits = static_cast<float>(high << zeros | static_cast<std::uint32_t>(product) >> (32 - zeros));
+  // Times 2^(2 e - zeros - 31), where base is less than 2^e.
+  const int exponent = 2 * (static_cast<int>(bits >> 23) - 126) - zeros - 31;
+  return unfused(digits * math::float_of(static_cast<std::uint32_t>(exponent + 127) << 23));
+}
+
+/// A byte without sRGB's gamma, 0 to 1.
+[[nodiscard]] constexpr float linear_of_srgb(std::uint8_t byte) noexcept {
+  if (!small_code || simd::lanes > 1 || __builtin_is_constant_evaluated()) return srgb_to_linear[byte];
+  const float c = static_cast<float>(byte) / 255.0f;
+  return c > 0.04045f ? small_srgb_power((c + 0.055f) / 1.055f) : c / 12.92f;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_COLOR_SRGB_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// CIELAB color: L in 0..100 (-16 for PclLab's white), a and b clamped to -120..120 as both existing codes do.
+struct Lab {
+  float L, a, b;
+};
+
+/// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
+struct PublishedLab {
+  static constexpr const char* name = "published Lab";  ///< for layout_of()
+  static constexpr bool leaves_gamut = false;           ///< are there sRGB colors beyond -120..120 in a or b?
+  /// Of a CIE ratio, 0 to 1.
+  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept {
+    return t > 0.008856f ? detail::published_root(t) : extend::unfused(7.787f * t) + 16.0f / 116.0f;
+  }
+};
+
+/// CIELAB by the formula of PCL's CSHOT: the cube root above the knee, 7.87 t + 16/116 below.
+struct CshotLab {
+  static constexpr const char* name = "CSHOT Lab";
+  static constexpr bool leaves_gamut = false;
+  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept {
+    return t > 0.008856f ? detail::cube_root(t) : extend::unfused(7.87f * t) + 16.0f / 116.0f;
+  }
+};
+
+/// The same as PCL's compiled code gives it: its table of roots ends before that of 1, where it reads a zero. White,
+/// the only color with such a ratio, becomes L = -16, a = 120, b = -120.
+struct PclLab {
+  static constexpr const char* name = "PCL Lab";
+  static constexpr bool leaves_gamut = true;
+  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept { return t < 1.0f ? CshotLab::root(t) : 0.0f; }
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// A color without sRGB's gamma.
+struct LinearRgb {
+  float of[3];
+};
+
+[[nodiscard]] constexpr LinearRgb to_linear(const Rgb& rgb) noexcept {
+  return {{linear_of_srgb(rgb.r), linear_of_srgb(rgb.g), linear_of_srgb(rgb.b)}};
+}
+
+/// Linear RGB to CIE XYZ, and the white point.
+inline constexpr float xyz_of_rgb[3][3] = {
+    {0.412453f, 0.357580f, 0.180423f}, {0.212671f, 0.715160f, 0.072169f}, {0.019334f, 0.119193f, 0.950227f}};
+inline constexpr float white_xyz[3] = {0.95047f, 1.0f, 1.08883f};
+
+/// A CIE ratio of a color (0: X / Xn, 1: Y / Yn, 2: Z / Zn) in whole steps of 1 / 4000: the position in the published
+/// tables.
+[[nodiscard]] constexpr int ratio_step(int ratio, const LinearRgb& rgb) noexcept {
+  const float(&row)[3] = xyz_of_rgb[ratio];
+  const float sum = unfused(rgb.of[0] * row[0]) + unfused(rgb.of[1] * row[1]) + unfused(rgb.of[2] * row[2]);
+  return static_cast<int>(sum / white_xyz[ratio] * 4000.0f);
+}
+
+/// The last step that a color can have. The ratios grow with each of the three bytes: no color is beyond white.
+inline constexpr int last_ratio_step = 4000;
+inline constexpr LinearRgb white = to_linear({255, 255, 255});
+static_assert(ratio_step(0, white) <= last_ratio_step && ratio_step(1, white) <= last_ratio_step &&
+                  ratio_step(2, white) <= last_ratio_step,
+              "white has the largest ratios");
+
+/// The root that `Rule` takes of a ratio of `step` / 4000.
+template <class Rule>
+[[nodiscard]] inline float root_of_step(int step) noexcept {
+  return Rule::root(static_cast<float>(step) / 4000.0f);
+}
+
+/// CIELAB of a color; root(step) is the root of a ratio, computed or from a table of them. Both existing codes clamp a
+/// and b to -120..120 (and L to 100), which is beyond what sRGB colors have but for PclLab's white.
+template <class Rule, class Root>
+inline void lab_by(const Root& root, const Rgb& rgb, Lab& lab) noexcept {
+  const LinearRgb linear = to_linear(rgb);
+  int steps[3];
+  float f[3];
+  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { steps[k] = ratio_step(k, linear); });
+  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { f[k] = root(steps[k]); });
+  lab = {unfused(116.0f * f[1]) - 16.0f, unfused(500.0f * (f[0] - f[1])), unfused(200.0f * (f[1] - f[2]))};
+  if constexpr (Rule::leaves_gamut) {
+    const auto clamp = [](float& value) { value = value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
+    clamp(lab.a);
+    clamp(lab.b);
+  }
+}
+
+/// to_lab(), written where it belongs: ARM's compilers copy a returned struct of three floats again and again.
+template <class Rule>
+[[gnu::always_inline]] inline void put_lab(const Rgb& rgb, Lab& lab) noexcept {
+  lab_by<Rule>([](int step) { return root_of_step<Rule>(step); }, rgb, lab);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// sRGB bytes to CIELAB by `Rule` (PublishedLab, CshotLab or PclLab). Source: what the published SSH / SCSH code and
+/// PCL 1.13 compute; within 1e-4 of either in L, a and b. No allocation, reentrant. LabTable (lab_table.hpp) gives the
+/// same bits several times faster, for 16 KB.
+template <class Rule>
+[[nodiscard]] inline Lab to_lab(const Rgb& rgb) noexcept {
+  Lab lab;
+  detail::put_lab<Rule>(rgb, lab);
+  return lab;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::extend {
+inline namespace SHORTSHOT_CODE {
+
+/// Lanes of CIELAB colors.
+struct LabLanes {
+  simd::F32 L, a, b;
+};
+
+[[nodiscard]] SHORTSHOT_INLINE LabLanes in_all_lanes(const Lab& color) noexcept {
+  return {simd::all(color.L), simd::all(color.a), simd::all(color.b)};
+}
+
+/// CSHOT's color distance, 0 to 1 for colors that sRGB has: (|dL| / 100 + (|da| / 120 + |db| / 120) / 2) / 3. NaN for
+/// somebody else's NaN.
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 color_distances(const LabLanes& p, const LabLanes& q) noexcept {
+  using simd::all;
+  const simd::F32 chroma = simd::abs(p.a - q.a) + simd::abs(p.b - q.b);
+  return simd::abs(p.L - q.L) * all(1.0f / 300.0f) + chroma * all(1.0f / 720.0f);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// The same of two colors, cut off at 1.
+[[nodiscard]] inline float color_distance(const Lab& p, const Lab& q) noexcept {
+  const extend::simd::F32 distances = extend::color_distances(extend::in_all_lanes(p), extend::in_all_lanes(q));
+  return extend::simd::largest(extend::simd::min(distances, extend::simd::all(1.0f)));
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+#endif  // SHORTSHOT_COLOR_LAB_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// CIELAB of linear RGB, as lab_by() gives it; roots[step] is a root.
+template <class Rule>
+[[nodiscard, gnu::always_inline]] inline LabLanes lab_of(const simd::F32 (&linear)[3], const float* roots) noexcept {
+  simd::F32 f[3];
+  unroll<3>([&](auto ratio) __attribute__((always_inline)) {
+    const float(&row)[3] = xyz_of_rgb[ratio];
+    const simd::F32 sum = linear[0] * simd::all(row[0]) + linear[1] * simd::all(row[1]) + linear[2] * simd::all(row[2]);
+    std::int32_t steps[simd::lanes];
+    simd::store(steps, truncate_to_int(sum / simd::all(white_xyz[ratio]) * simd::all(4000.0f)));
+    f[ratio] = simd::from_lanes([&](int k) { return roots[steps[k]]; });
+  });
+  LabLanes lab{simd::all(116.0f) * f[1] - simd::all(16.0f), simd::all(500.0f) * (f[0] - f[1]),
+               simd::all(200.0f) * (f[1] - f[2])};
+  if constexpr (Rule::leaves_gamut) {
+    lab.a = simd::max(simd::min(lab.a, simd::all(120.0f)), simd::all(-120.0f));
+    lab.b = simd::max(simd::min(lab.b, simd::all(120.0f)), simd::all(-120.0f));
+  }
+  return lab;
+}
+
+/// Colors [begin, end) of a cloud; `lab` is a Lab for each of its points, as floats.
+template <class Rule>
+inline void convert_range_by(const float* roots, const CloudView& cloud, std::size_t begin, std::size_t end,
+                             float* lab) noexcept {
+  const std::size_t stride = cloud.colors.stride_bytes;
+  const std::size_t first = begin * stride;
+  const unsigned char* r = cloud.colors.r + first;
+  const unsigned char* g = cloud.colors.g + first;
+  const unsigned char* b = cloud.colors.b + first;
+  lab += 3 * begin;
+  std::size_t i = begin;
+  for (; i + simd::lanes <= end; i += simd::lanes) {
+    const auto linear = [stride](const unsigned char*& at) __attribute__((always_inline)) {
+      const unsigned char* byte = at;
+      float values[simd::lanes];
+      unroll<static_cast<int>(simd::lanes)>([&](auto k) __attribute__((always_inline)) {
+        values[k] = linear_of_srgb(*byte);
+        byte += stride;
+      });
+      at = byte;
+      return simd::load(values);
+    };
+    const simd::F32 rgb[3] = {linear(r), linear(g), linear(b)};
+    const LabLanes colors = lab_of<Rule>(rgb, roots);
+    float of[3][simd::lanes];
+    simd::store(of[0], colors.L);
+    simd::store(of[1], colors.a);
+    simd::store(of[2], colors.b);
+    unroll<static_cast<int>(simd::lanes)>([&](auto k) __attribute__((always_inline)) {
+      lab[3 * k] = of[0][k];
+      lab[3 * k + 1] = of[1][k];
+      lab[3 * k + 2] = of[2][k];
+    });
+    lab += 3 * simd::lanes;
+  }
+  for (; i < end; ++i, lab += 3) {
+    Lab color;
+    lab_by<Rule>([roots](int step) { return roots[step]; }, extend::read(cloud.colors, i), color);
+    lab[0] = color.L;
+    lab[1] = color.a;
+    lab[2] = color.b;
+  }
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_COLOR_LAB_LANES_HPP
+
+// shortshot/descriptor/compact.hpp: compact descriptors. They find more than the published ones in a fraction of the
+// bytes: one pass of soft votes in SHOT's frame, nothing learned.
+//
+// What they are made of: cells are slices of height over the tangent plane; every vote is shared among all cells around
+// it (MultilinearVoting); colors are compared with the mean of the neighborhood's, along L, a and b and with their
+// signs; square roots keep crowded cells from deciding alone; and each kind of part has a length of its own. They are
+// to be stored in four bits a value: the bytes in their names. Best in a frame whose z axis is turned to the camera
+// (Support::viewpoint); without a viewpoint it is SHOT's own.
+//
+// The formulas below speak of neighbors within the radius, W of them, copies of the key point left out. In the frame
+// one lies at (x, y, z) and at the distance d:
+//
+//     u = d / radius                          along the radius: shells, from the key point outwards
+//     e = 1/2 - z / radius, cut off to 0..1   along the height: slices, from half a radius above the tangent plane down
+//     a = (atan2(y, x) + pi) / (2 pi)         along the azimuth: sectors, from -x counter-clockwise
+//     dL, da, db                              its color (CIELAB, PublishedLab) less the mean of all within the radius,
+//                                             where the key point and its copies count too
+//
+// On an axis of n cells a place from 0 to 1, times n, is t. Cell i = floor(t) (n - 1 at most) has the share f + 1/2 of
+// the vote if f = t - i is at most 1/2, and cell i - 1 has the rest; else 3/2 - f, and cell i + 1 has the rest.
+// Azimuths go around; beyond the other axes' ends the rest stays in cell i. The share w of a cell (r, e, a) of a grid
+// of R x E x A cells, or of a bin in it, is the product over all axes: those of one neighbor add up to 1. A sum without
+// bounds is over the neighbors.
+#ifndef SHORTSHOT_DESCRIPTOR_COMPACT_HPP
+#define SHORTSHOT_DESCRIPTOR_COMPACT_HPP
+
+// shortshot/descriptor/conventions.hpp: the conventions of cells: who is described, where cells begin, on which side a
+// border lies, how cells are laid out.
+//
+// There are two: that of the published SSH / SCSH code and that of SHOT as PCL computes it. A descriptor has one. A
+// convention owns its positions: the kernel asks it, and knows none of its rules.
+#ifndef SHORTSHOT_DESCRIPTOR_CONVENTIONS_HPP
+#define SHORTSHOT_DESCRIPTOR_CONVENTIONS_HPP
 
 // shortshot/search/neighborhood.hpp: the neighbors of one key point, in memory that somebody else owns.
 #ifndef SHORTSHOT_SEARCH_NEIGHBORHOOD_HPP
@@ -2800,305 +3241,6 @@ struct CloudNormals {
 // before.
 #ifndef SHORTSHOT_COLOR_COLOR_SOURCE_HPP
 #define SHORTSHOT_COLOR_COLOR_SOURCE_HPP
-
-// shortshot/color/lab.hpp: sRGB bytes -> CIELAB, and the color distance of CSHOT and SCSH.
-//
-// Both existing codes quantize the CIE ratios to 1/4000 and look their cube root up in a table of 4000 entries; here
-// the same quantized ratio goes through a computed root, so that 16 KB of tables are not needed and pure white, which
-// reads past the end of both tables, is defined (in PclLab, too: as what PCL was seen to read there).
-#ifndef SHORTSHOT_COLOR_LAB_HPP
-#define SHORTSHOT_COLOR_LAB_HPP
-
-// shortshot/color/fixed_power.hpp: the roots of CIELAB, in integers: half the instructions of a float version that is
-// as good, a fortieth where there is no FPU, and nothing that could round differently elsewhere.
-#ifndef SHORTSHOT_COLOR_FIXED_POWER_HPP
-#define SHORTSHOT_COLOR_FIXED_POWER_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// t^p of a fixed p below 1/2, for t from 2^-7 up to 2. With t = m 2^e, m from 1/2 to 1, and z = m - 1:
-/// t^p = (1 + z (c0 + z (c1 + ... + z c9))) 2^(e p).
-struct FixedPower {
-  std::int32_t fit[10];     ///< c0 to c9 in units of 2^-32: ((1 + z)^p - 1) / z at Chebyshev nodes
-  std::uint32_t octave[8];  ///< 2^(e p) in units of 2^-31, from e = -6 on
-
-  /// In units of 2^-31, of the float that has these bits.
-  [[nodiscard]] std::uint32_t fixed(std::uint32_t bits) const noexcept {
-    const auto z = static_cast<std::int32_t>(bits << 8 | 0x80000000u);  // in units of 2^-32
-    std::int32_t sum = fit[9];
-    each<9>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sum = fit[8 - k] + upper_half(sum, z); });
-    const auto power = static_cast<std::uint32_t>(upper_half(sum, z) + 1);  // modulo 1; rounded up, as the rest is down
-    return static_cast<std::uint32_t>((std::uint64_t{power} * octave[(bits >> 23) - 120u]) >> 32);
-  }
-
-  /// Within 2e-9 before it is rounded to float, once: of the 3965 numbers k / 4000 that CIELAB asks for, all but 18 are
-  /// the float that is closest, and those are the next one.
-  [[nodiscard]] float operator()(float t) const noexcept {
-    return unfused(static_cast<float>(fixed(math::bits_of(t))) * (1.0f / 2147483648.0f));
-  }
-
- private:
-  [[nodiscard]] static std::int32_t upper_half(std::int32_t a, std::int32_t b) noexcept {
-    return static_cast<std::int32_t>((std::int64_t{a} * b) >> 32);  // towards minus infinity, as simd::shift_right()
-  }
-};
-
-inline constexpr FixedPower cube_root{
-    {1431655764, -477219117, 265086957, -177611235, 118766867, -177798683, -243108994, -883031911, -1088405058,
-     -784821837},
-    {536870912u, 676414963u, 852229450u, 1073741824u, 1352829926u, 1704458901u, 2147483648u, 2705659852u}};
-
-/// t^0.3333, as the published SSH / SCSH code has it.
-inline constexpr FixedPower published_root{
-    {1431512598, -477195254, 265079000, -177608167, 118765444, -177800906, -243118475, -883057088, -1088438257,
-     -784843915},
-    {536945343u, 676493110u, 852308217u, 1073816253u, 1352892442u, 1704498283u, 2147483648u, 2705597339u}};
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-#endif  // SHORTSHOT_COLOR_FIXED_POWER_HPP
-
-// shortshot/color/srgb.hpp: sRGB's gamma undone, by a table of 1 KB or, where code shall be small, without: the same
-// bits.
-#ifndef SHORTSHOT_COLOR_SRGB_HPP
-#define SHORTSHOT_COLOR_SRGB_HPP
-
-#include <array>
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// n-th root by Newton's iteration, for tables that are built while compiling; never called at run time.
-constexpr double nth_root(double value, int n) noexcept {
-  double root = 1.0;
-  for (int step = 0; step < 100; ++step) {
-    double power = 1.0;
-    for (int k = 1; k < n; ++k) power *= root;
-    const double next = ((n - 1) * root + value / power) / n;
-    if (next == root) break;
-    root = next;
-  }
-  return root;
-}
-
-/// Natural logarithm of 0.05 <= value <= 1 to 1e-6, likewise only while compiling: ln v = 2 artanh((v - 1) / (v + 1)).
-constexpr double log_series(double value) noexcept {
-  const double s = (value - 1.0) / (value + 1.0);
-  double power = s;
-  double sum = 0.0;
-  for (int k = 1; k < 120; k += 2) {
-    sum += power / k;
-    power *= s * s;
-  }
-  return 2.0 * sum;
-}
-
-/// A power of 2.4 with the existing codes' own roundings, because one bit more or less would move some ratios across a
-/// step of their tables: the base is a float, and so is the exponent.
-constexpr float srgb_power(float number) noexcept {
-  const double base = static_cast<double>(number);
-  const double excess = static_cast<double>(2.4f) - 2.4;
-  return static_cast<float>(base * base * nth_root(base * base, 5) * (1.0 + excess * log_series(base)));
-}
-
-constexpr std::array<float, 256> make_srgb_to_linear() noexcept {
-  std::array<float, 256> table{};
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    const float c = static_cast<float>(i) / 255.0f;
-    table[i] = c > 0.04045f ? srgb_power((c + 0.055f) / 1.055f) : c / 12.92f;
-  }
-  return table;
-}
-
-inline constexpr std::array<float, 256> srgb_to_linear = make_srgb_to_linear();
-
-inline constexpr FixedPower srgb_root{
-    {1717987336, -515393476, 275016773, -175895406, 155978275, 49167834, 531163086, 686271253, 616103588, 0},
-    {406871906u, 536870735u, 708405228u, 934746364u, 1233405304u, 1627488163u, 2147483648u, 2833621849u}};
-
-/// The same power of a number from 1/16 to 1 without double: the square of its mantissa times srgb_root of it, whose p
-/// is 2.4 - 2. Of all 245 numbers that the gamma has, each has the table's bits.
-[[nodiscard]] inline float small_srgb_power(float base) noexcept {
-  const std::uint32_t bits = math::bits_of(base);
-  const std::uint32_t mantissa = bits << 8 | 0x80000000u;
-  const auto square = static_cast<std::uint32_t>((std::uint64_t{mantissa} * mantissa) >> 32);
-  const std::uint64_t product = std::uint64_t{srgb_root.fixed(bits)} * square;  // in units of 2^-63
-  const auto high = static_cast<std::uint32_t>(product >> 32);
-  const int zeros = __builtin_clz(high);  // 1 to 4
-  const auto digits = static_cast<float>(high << zeros | static_cast<std::uint32_t>(product) >> (32 - zeros));
-  // Times 2^(2 e - zeros - 31), where base is less than 2^e.
-  const int exponent = 2 * (static_cast<int>(bits >> 23) - 126) - zeros - 31;
-  return unfused(digits * math::float_of(static_cast<std::uint32_t>(exponent + 127) << 23));
-}
-
-/// A byte without sRGB's gamma, 0 to 1.
-[[nodiscard]] constexpr float linear_of_srgb(std::uint8_t byte) noexcept {
-  if (!small_code || simd::lanes > 1 || __builtin_is_constant_evaluated()) return srgb_to_linear[byte];
-  const float c = static_cast<float>(byte) / 255.0f;
-  return c > 0.04045f ? small_srgb_power((c + 0.055f) / 1.055f) : c / 12.92f;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-#endif  // SHORTSHOT_COLOR_SRGB_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// CIELAB color: L in 0..100 (-16 for PclLab's white), a and b clamped to -120..120 as both existing codes do.
-struct Lab {
-  float L, a, b;
-};
-
-/// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
-struct PublishedLab {
-  static constexpr const char* name = "published Lab";  ///< for layout_of()
-  static constexpr bool leaves_gamut = false;           ///< are there sRGB colors beyond -120..120 in a or b?
-  /// Of a CIE ratio, 0 to 1.
-  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept {
-    return t > 0.008856f ? detail::published_root(t) : extend::unfused(7.787f * t) + 16.0f / 116.0f;
-  }
-};
-
-/// CIELAB by the formula of PCL's CSHOT: the cube root above the knee, 7.87 t + 16/116 below.
-struct CshotLab {
-  static constexpr const char* name = "CSHOT Lab";
-  static constexpr bool leaves_gamut = false;
-  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept {
-    return t > 0.008856f ? detail::cube_root(t) : extend::unfused(7.87f * t) + 16.0f / 116.0f;
-  }
-};
-
-/// The same as PCL's compiled code gives it: its table of roots ends before that of 1, where it reads a zero. White,
-/// the only color with such a ratio, becomes L = -16, a = 120, b = -120.
-struct PclLab {
-  static constexpr const char* name = "PCL Lab";
-  static constexpr bool leaves_gamut = true;
-  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept { return t < 1.0f ? CshotLab::root(t) : 0.0f; }
-};
-
-}  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// A color without sRGB's gamma.
-struct LinearRgb {
-  float of[3];
-};
-
-[[nodiscard]] constexpr LinearRgb to_linear(const Rgb& rgb) noexcept {
-  return {{linear_of_srgb(rgb.r), linear_of_srgb(rgb.g), linear_of_srgb(rgb.b)}};
-}
-
-/// Linear RGB to CIE XYZ, and the white point.
-inline constexpr float xyz_of_rgb[3][3] = {
-    {0.412453f, 0.357580f, 0.180423f}, {0.212671f, 0.715160f, 0.072169f}, {0.019334f, 0.119193f, 0.950227f}};
-inline constexpr float white_xyz[3] = {0.95047f, 1.0f, 1.08883f};
-
-/// A CIE ratio of a color (0: X / Xn, 1: Y / Yn, 2: Z / Zn) in whole steps of 1 / 4000: the position in the published
-/// tables.
-[[nodiscard]] constexpr int ratio_step(int ratio, const LinearRgb& rgb) noexcept {
-  const float(&row)[3] = xyz_of_rgb[ratio];
-  const float sum = unfused(rgb.of[0] * row[0]) + unfused(rgb.of[1] * row[1]) + unfused(rgb.of[2] * row[2]);
-  return static_cast<int>(sum / white_xyz[ratio] * 4000.0f);
-}
-
-/// The last step that a color can have. The ratios grow with each of the three bytes: no color is beyond white.
-inline constexpr int last_ratio_step = 4000;
-inline constexpr LinearRgb white = to_linear({255, 255, 255});
-static_assert(ratio_step(0, white) <= last_ratio_step && ratio_step(1, white) <= last_ratio_step &&
-                  ratio_step(2, white) <= last_ratio_step,
-              "white has the largest ratios");
-
-/// The root that `Rule` takes of a ratio of `step` / 4000.
-template <class Rule>
-[[nodiscard]] inline float root_of_step(int step) noexcept {
-  return Rule::root(static_cast<float>(step) / 4000.0f);
-}
-
-/// CIELAB of a color; root(step) is the root of a ratio, computed or from a table of them. Both existing codes clamp a
-/// and b to -120..120 (and L to 100), which is beyond what sRGB colors have but for PclLab's white.
-template <class Rule, class Root>
-inline void lab_by(const Root& root, const Rgb& rgb, Lab& lab) noexcept {
-  const LinearRgb linear = to_linear(rgb);
-  int steps[3];
-  float f[3];
-  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { steps[k] = ratio_step(k, linear); });
-  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { f[k] = root(steps[k]); });
-  lab = {unfused(116.0f * f[1]) - 16.0f, unfused(500.0f * (f[0] - f[1])), unfused(200.0f * (f[1] - f[2]))};
-  if constexpr (Rule::leaves_gamut) {
-    const auto clamp = [](float& value) { value = value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
-    clamp(lab.a);
-    clamp(lab.b);
-  }
-}
-
-/// to_lab(), written where it belongs: ARM's compilers copy a returned struct of three floats again and again.
-template <class Rule>
-[[gnu::always_inline]] inline void put_lab(const Rgb& rgb, Lab& lab) noexcept {
-  lab_by<Rule>([](int step) { return root_of_step<Rule>(step); }, rgb, lab);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// sRGB bytes to CIELAB by `Rule` (PublishedLab, CshotLab or PclLab). Source: what the published SSH / SCSH code and
-/// PCL 1.13 compute; within 1e-4 of either in L, a and b. No allocation, reentrant. LabTable (lab_table.hpp) gives the
-/// same bits several times faster, for 16 KB.
-template <class Rule>
-[[nodiscard]] inline Lab to_lab(const Rgb& rgb) noexcept {
-  Lab lab;
-  detail::put_lab<Rule>(rgb, lab);
-  return lab;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-
-namespace shortshot::extend {
-inline namespace SHORTSHOT_CODE {
-
-/// Lanes of CIELAB colors.
-struct LabLanes {
-  simd::F32 L, a, b;
-};
-
-[[nodiscard]] SHORTSHOT_INLINE LabLanes in_all_lanes(const Lab& color) noexcept {
-  return {simd::all(color.L), simd::all(color.a), simd::all(color.b)};
-}
-
-/// CSHOT's color distance, 0 to 1 for colors that sRGB has: (|dL| / 100 + (|da| / 120 + |db| / 120) / 2) / 3. NaN for
-/// somebody else's NaN.
-[[nodiscard]] SHORTSHOT_INLINE simd::F32 color_distances(const LabLanes& p, const LabLanes& q) noexcept {
-  using simd::all;
-  const simd::F32 chroma = simd::abs(p.a - q.a) + simd::abs(p.b - q.b);
-  return simd::abs(p.L - q.L) * all(1.0f / 300.0f) + chroma * all(1.0f / 720.0f);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::extend
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// The same of two colors, cut off at 1.
-[[nodiscard]] inline float color_distance(const Lab& p, const Lab& q) noexcept {
-  const extend::simd::F32 distances = extend::color_distances(extend::in_all_lanes(p), extend::in_all_lanes(q));
-  return extend::simd::largest(extend::simd::min(distances, extend::simd::all(1.0f)));
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-
-#endif  // SHORTSHOT_COLOR_LAB_HPP
 
 // shortshot/color/packed_lab.hpp: a CIELAB color in 32 bits, for arrays with one color per point.
 #ifndef SHORTSHOT_COLOR_PACKED_LAB_HPP
@@ -9160,9 +9302,11 @@ using namespace extend;
 #undef SHORTSHOT_CLOUD_NORMAL_SOURCE_HPP
 #undef SHORTSHOT_CLOUD_POINT_LANES_HPP
 #undef SHORTSHOT_CLOUD_READ_HPP
+#undef SHORTSHOT_CLOUD_VOXEL_LANES_HPP
 #undef SHORTSHOT_COLOR_COLOR_SOURCE_HPP
 #undef SHORTSHOT_COLOR_FIXED_POWER_HPP
 #undef SHORTSHOT_COLOR_LAB_HPP
+#undef SHORTSHOT_COLOR_LAB_LANES_HPP
 #undef SHORTSHOT_COLOR_PACKED_LAB_HPP
 #undef SHORTSHOT_COLOR_SRGB_HPP
 #undef SHORTSHOT_DESCRIPTOR_AXIS_HPP
@@ -9405,6 +9549,34 @@ template <class D, class Sources>
   }
 #endif
   return describe<D>(n, sources, frame, radius, out);
+}
+
+/// place_in_voxels().
+inline std::size_t place_widest(const CloudView& cloud, float leaf, std::size_t begin, float (&number)[3][voxel_block],
+                                float (&d2)[voxel_block]) noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  if (has_wider_lanes()) {
+    return ::shortshot_avx2::detail::place_in_voxels(as_twin<::shortshot_avx2::CloudView>(cloud), leaf, begin, number,
+                                                     d2);
+  }
+#endif
+  return place_in_voxels(cloud, leaf, begin, number, d2);
+}
+
+/// The colors [begin, end) of a cloud, one Lab for each of its points, by a table of roots.
+template <class Rule>
+inline void convert_widest(const CloudView& cloud, std::size_t begin, std::size_t end, const float* roots,
+                           Lab* lab) noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  if constexpr (HasTwin<Rule>::value) {
+    if (has_wider_lanes()) {
+      ::shortshot_avx2::detail::convert_range_by<TwinOf<Rule>>(roots, as_twin<::shortshot_avx2::CloudView>(cloud),
+                                                               begin, end, &lab->L);
+      return;
+    }
+  }
+#endif
+  convert_range_by<Rule>(roots, cloud, begin, end, &lab->L);
 }
 
 using HostGrid = Grid<std::uint32_t>;
@@ -9681,42 +9853,8 @@ template <class D>
 #ifndef SHORTSHOT_BATCH_VOXELS_HPP
 #define SHORTSHOT_BATCH_VOXELS_HPP
 
-#include <cmath>
-
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
-
-/// Points in their voxels, which lie on a grid through the origin. Voxel numbers stay floats: whole numbers, exact up
-/// to 2^24 voxels from the origin, as the coordinates are; infinite beyond float's range, where all points share one.
-struct VoxelLanes {
-  simd::F32 number[3];  ///< never -0
-  simd::F32 place[3];   ///< in the voxel, from its corner, in voxels
-  simd::F32 d2;         ///< to the voxel's center, in voxels
-};
-
-[[nodiscard]] inline simd::F32 floor_of(simd::F32 position) noexcept {
-  if (every(simd::all(4194304.0f) > simd::abs(position))) {  // 2^22
-    const simd::F32 whole = simd::to_whole(position);
-    return whole - keep(whole > position, simd::all(1.0f));
-  }
-  return simd::map([](float a) { return __builtin_floorf(a); }, position) + simd::all(0.0f);
-}
-
-[[nodiscard]] inline VoxelLanes voxels_of(const PointLanes& points, float leaf) noexcept {
-  VoxelLanes voxels;
-  const simd::F32 coordinates[3] = {points.x, points.y, points.z};
-  simd::F32 squares[3];
-  unroll<3>([&](auto axis) {
-    const simd::F32 position = coordinates[axis] / simd::all(leaf);
-    voxels.number[axis] = floor_of(position);
-    const simd::Mask finite = simd::all(HUGE_VALF) > simd::abs(position);
-    voxels.place[axis] = keep(finite, position) - keep(finite, voxels.number[axis]);
-    const simd::F32 from_center = voxels.place[axis] - simd::all(0.5f);
-    squares[axis] = from_center * from_center;
-  });
-  voxels.d2 = (squares[0] + squares[1]) + squares[2];
-  return voxels;
-}
 
 /// A voxel that holds points, and which of them is nearest to its center.
 struct Voxel {
@@ -9804,21 +9942,17 @@ template <class Function>
   if (usable != Status::ok) return usable;
   if (!math::is_finite(leaf) || !(leaf > 0.0f)) return Status::bad_leaf;
   bool any_valid = false;
-  for_each_valid_register(cloud, [&](std::size_t first, const PointLanes& points, simd::Mask valid) {
-    any_valid = true;
-    const VoxelLanes voxels = voxels_of(points, leaf);
-    float number[3][simd::lanes];
-    float d2[simd::lanes];
-    float is_valid[simd::lanes];
-    unroll<3>([&](auto axis) { simd::store(number[axis], voxels.number[axis]); });
-    simd::store(d2, voxels.d2);
-    simd::store(is_valid, keep(valid, simd::all(1.0f)));
-    for (std::size_t lane = 0; lane < simd::lanes; ++lane) {
-      if (is_valid[lane] == 0.0f) continue;
-      const float of_lane[3] = {number[0][lane], number[1][lane], number[2][lane]};
-      f(of_lane, d2[lane], static_cast<std::uint32_t>(first + lane));
+  float numbers[3][voxel_block];
+  float d2[voxel_block];
+  for (std::size_t begin = 0; begin < cloud.size; begin += voxel_block) {
+    const std::size_t size = place_widest(cloud, leaf, begin, numbers, d2);
+    for (std::size_t k = 0; k < size; ++k) {
+      if (d2[k] < 0.0f) continue;
+      any_valid = true;
+      const float number[3] = {numbers[0][k], numbers[1][k], numbers[2][k]};
+      f(number, d2[k], static_cast<std::uint32_t>(begin + k));
     }
-  });
+  }
   return any_valid ? Status::ok : Status::empty_cloud;
 }
 
@@ -10603,6 +10737,8 @@ class LabTable {
     for (int step = 0; step <= detail::last_ratio_step; ++step) roots_.push_back(detail::root_of_step<Rule>(step));
   }
 
+  [[nodiscard]] const float* roots() const noexcept { return roots_.data(); }
+
   [[nodiscard]] Lab operator()(Rgb color) const noexcept {
     Lab lab;
     detail::lab_by<Rule>([roots = roots_.data()](int step) { return roots[step]; }, color, lab);
@@ -10906,10 +11042,14 @@ class Extractor {
     if constexpr (D::needs_colors) {
       to_lab_.fill();
       lab_.resize(cloud.size);
-      detail::for_blocks(executor, team, cloud.size, detail::color_block,
-                         [&](std::size_t, std::size_t begin, std::size_t end) {
-                           detail::convert_range(cloud, begin, end, to_lab_, lab_.data());
-                         });
+      detail::for_blocks(
+          executor, team, cloud.size, detail::color_block, [&](std::size_t, std::size_t begin, std::size_t end) {
+            if constexpr (std::is_same<Color, Lab>::value) {
+              detail::convert_widest<typename D::LabRule>(cloud, begin, end, to_lab_.roots(), lab_.data());
+            } else {
+              detail::convert_range(cloud, begin, end, to_lab_, lab_.data());
+            }
+          });
     }
   }
 

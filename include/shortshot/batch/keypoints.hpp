@@ -13,7 +13,9 @@
 #include "../cloud/keypoint.hpp"
 #include "../cloud/point_lanes.hpp"
 #include "../cloud/read.hpp"
+#include "../cloud/voxel_lanes.hpp"
 #include "../config.hpp"
+#include "../dispatch/widest.hpp"
 #include "../status.hpp"
 #include "voxels.hpp"
 
@@ -27,21 +29,17 @@ template <class Function>
   if (usable != Status::ok) return usable;
   if (!math::is_finite(leaf) || !(leaf > 0.0f)) return Status::bad_leaf;
   bool any_valid = false;
-  for_each_valid_register(cloud, [&](std::size_t first, const PointLanes& points, simd::Mask valid) {
-    any_valid = true;
-    const VoxelLanes voxels = voxels_of(points, leaf);
-    float number[3][simd::lanes];
-    float d2[simd::lanes];
-    float is_valid[simd::lanes];
-    unroll<3>([&](auto axis) { simd::store(number[axis], voxels.number[axis]); });
-    simd::store(d2, voxels.d2);
-    simd::store(is_valid, keep(valid, simd::all(1.0f)));
-    for (std::size_t lane = 0; lane < simd::lanes; ++lane) {
-      if (is_valid[lane] == 0.0f) continue;
-      const float of_lane[3] = {number[0][lane], number[1][lane], number[2][lane]};
-      f(of_lane, d2[lane], static_cast<std::uint32_t>(first + lane));
+  float numbers[3][voxel_block];
+  float d2[voxel_block];
+  for (std::size_t begin = 0; begin < cloud.size; begin += voxel_block) {
+    const std::size_t size = place_widest(cloud, leaf, begin, numbers, d2);
+    for (std::size_t k = 0; k < size; ++k) {
+      if (d2[k] < 0.0f) continue;
+      any_valid = true;
+      const float number[3] = {numbers[0][k], numbers[1][k], numbers[2][k]};
+      f(number, d2[k], static_cast<std::uint32_t>(begin + k));
     }
-  });
+  }
   return any_valid ? Status::ok : Status::empty_cloud;
 }
 

@@ -8,46 +8,10 @@
 #include <vector>
 
 #include "../base/math.hpp"
-#include "../base/simd.hpp"
-#include "../base/unroll.hpp"
-#include "../cloud/cloud.hpp"
-#include "../cloud/point_lanes.hpp"
 #include "../config.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
-
-/// Points in their voxels, which lie on a grid through the origin. Voxel numbers stay floats: whole numbers, exact up
-/// to 2^24 voxels from the origin, as the coordinates are; infinite beyond float's range, where all points share one.
-struct VoxelLanes {
-  simd::F32 number[3];  ///< never -0
-  simd::F32 place[3];   ///< in the voxel, from its corner, in voxels
-  simd::F32 d2;         ///< to the voxel's center, in voxels
-};
-
-[[nodiscard]] inline simd::F32 floor_of(simd::F32 position) noexcept {
-  if (every(simd::all(4194304.0f) > simd::abs(position))) {  // 2^22
-    const simd::F32 whole = simd::to_whole(position);
-    return whole - keep(whole > position, simd::all(1.0f));
-  }
-  return simd::map([](float a) { return __builtin_floorf(a); }, position) + simd::all(0.0f);
-}
-
-[[nodiscard]] inline VoxelLanes voxels_of(const PointLanes& points, float leaf) noexcept {
-  VoxelLanes voxels;
-  const simd::F32 coordinates[3] = {points.x, points.y, points.z};
-  simd::F32 squares[3];
-  unroll<3>([&](auto axis) {
-    const simd::F32 position = coordinates[axis] / simd::all(leaf);
-    voxels.number[axis] = floor_of(position);
-    const simd::Mask finite = simd::all(HUGE_VALF) > simd::abs(position);
-    voxels.place[axis] = keep(finite, position) - keep(finite, voxels.number[axis]);
-    const simd::F32 from_center = voxels.place[axis] - simd::all(0.5f);
-    squares[axis] = from_center * from_center;
-  });
-  voxels.d2 = (squares[0] + squares[1]) + squares[2];
-  return voxels;
-}
 
 /// A voxel that holds points, and which of them is nearest to its center.
 struct Voxel {

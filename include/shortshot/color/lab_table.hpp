@@ -23,6 +23,8 @@ class LabTable {
     for (int step = 0; step <= detail::last_ratio_step; ++step) roots_.push_back(detail::root_of_step<Rule>(step));
   }
 
+  [[nodiscard]] const float* roots() const noexcept { return roots_.data(); }
+
   [[nodiscard]] Lab operator()(Rgb color) const noexcept {
     Lab lab;
     detail::lab_by<Rule>([roots = roots_.data()](int step) { return roots[step]; }, color, lab);

@@ -3,6 +3,8 @@
 #ifndef SHORTSHOT_DISPATCH_HOT_KERNEL_HPP
 #define SHORTSHOT_DISPATCH_HOT_KERNEL_HPP
 
+#include "../cloud/voxel_lanes.hpp"
+#include "../color/lab_lanes.hpp"
 #include "../descriptor/compact.hpp"
 #include "../frame/normal.hpp"
 #include "../kernel/describe_at.hpp"

@@ -3,9 +3,13 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 
 #include "../cloud/cloud.hpp"
+#include "../cloud/voxel_lanes.hpp"
+#include "../color/lab.hpp"
+#include "../color/lab_lanes.hpp"
 #include "../config.hpp"
 #include "../frame/frame.hpp"
 #include "../kernel/chunk.hpp"
@@ -89,6 +93,34 @@ template <class D, class Sources>
   }
 #endif
   return describe<D>(n, sources, frame, radius, out);
+}
+
+/// place_in_voxels().
+inline std::size_t place_widest(const CloudView& cloud, float leaf, std::size_t begin, float (&number)[3][voxel_block],
+                                float (&d2)[voxel_block]) noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  if (has_wider_lanes()) {
+    return ::shortshot_avx2::detail::place_in_voxels(as_twin<::shortshot_avx2::CloudView>(cloud), leaf, begin, number,
+                                                     d2);
+  }
+#endif
+  return place_in_voxels(cloud, leaf, begin, number, d2);
+}
+
+/// The colors [begin, end) of a cloud, one Lab for each of its points, by a table of roots.
+template <class Rule>
+inline void convert_widest(const CloudView& cloud, std::size_t begin, std::size_t end, const float* roots,
+                           Lab* lab) noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  if constexpr (HasTwin<Rule>::value) {
+    if (has_wider_lanes()) {
+      ::shortshot_avx2::detail::convert_range_by<TwinOf<Rule>>(roots, as_twin<::shortshot_avx2::CloudView>(cloud),
+                                                               begin, end, &lab->L);
+      return;
+    }
+  }
+#endif
+  convert_range_by<Rule>(roots, cloud, begin, end, &lab->L);
 }
 
 using HostGrid = Grid<std::uint32_t>;

@@ -100,6 +100,23 @@ TEST_CASE("dispatch: every descriptor has the same bits, frames and statuses wit
   check_same_bits<ss::ColorRings27>(view, keypoints);
 }
 
+TEST_CASE("dispatch: the same key points") {
+  const Choice choice;
+  const TestCloud cloud = surface();
+  std::vector<std::uint32_t> keypoints[2];
+  std::vector<ss::KeyPoint> centroids[2];
+  for (const bool wide : {false, true}) {
+    static_cast<void>(ss::extend::allow_wider_lanes(wide));
+    REQUIRE(ss::sample_uniform(cloud.view(), 0.02f, keypoints[wide ? 1 : 0]) == Status::ok);
+    REQUIRE(ss::sample_centroids(cloud.view(), 0.02f, centroids[wide ? 1 : 0]) == Status::ok);
+  }
+  CHECK(keypoints[0] == keypoints[1]);
+  REQUIRE(centroids[0].size() == centroids[1].size());
+  for (std::size_t k = 0; k < centroids[0].size(); ++k) {
+    CHECK(std::memcmp(&centroids[0][k].position, &centroids[1][k].position, sizeof(ss::Point)) == 0);
+  }
+}
+
 TEST_CASE("dispatch: a signal of the caller's own is measured as ever") {
   using D = ss::Descriptor<ss::HardVoting, ss::Part<ss::SphericalGrid<1, 2, 4>, Height>>;
   const Choice choice;
