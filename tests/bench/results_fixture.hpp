@@ -88,7 +88,8 @@ class Project {
        "bytes": 4096}]})");
     write("bench/speed/instructions/expected.json", R"({"compiler": "GCC 12", "flags": "-O2", "workload": "tabletop",
       "instructions_per_neighbor": {"kernel Ssh32 sse2": 60.25, "frame sse2": 40},
-      "instructions_per_point": {"sample sse2": 130}})");
+      "instructions_per_point": {"sample sse2": 130},
+      "instructions_per_frame": {"whole frame Scsh336 sse2": 204123456}})");
     write("bench/results/scaling.json", R"([
       {"curve": "threads", "x": 1, "x_name": "threads", "series": "extract", "value": 80.5, "unit": "ms",
        "extra_bytes": 2000000, "repetitions": 3},

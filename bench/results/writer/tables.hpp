@@ -25,7 +25,7 @@ std::string peers_table(const std::vector<JsonRow>& peers);
 std::string micro_table(const std::string& path, const nlohmann::ordered_json& json);
 
 /// `json` is the instruction gate's record: compiler, flags, workload, instructions_per_point,
-/// instructions_per_neighbor.
+/// instructions_per_neighbor, instructions_per_frame.
 std::string instructions_table(const std::string& path, const nlohmann::ordered_json& json);
 
 /// `json` is what ./run firmware --record wrote: the README's rows, and the firmware page's tables.

@@ -13,6 +13,7 @@
 #include "shortshot/shortshot.hpp"
 #include "speed/micro/options.hpp"
 #include "speed/micro/register.hpp"
+#include "speed/spread_keypoints.hpp"
 #include "speed/stages/stages.hpp"
 #include "tools/scene/tabletop.hpp"
 
@@ -101,6 +102,7 @@ TEST_CASE("a workload holds what its stages need, and what it says of it is true
   CHECK(w.chosen_neighbors == neighbors);
   CHECK(w.most_neighbors == most);
   CHECK(w.normal_radius == 0.02f);
+  CHECK(w.frame_leaf == 0.01f);
   CHECK(w.normals.size() == w.cloud.size());
   CHECK(shortshot::has_normals(w.view()));
   const shortshot::BruteSearch everything{w.view()};
@@ -111,6 +113,18 @@ TEST_CASE("a workload holds what its stages need, and what it says of it is true
     normal_neighbors += n.found;
   }
   CHECK(w.normal_neighbors == normal_neighbors);
+}
+
+TEST_CASE("key points are kept evenly spread, in their order, and all where there are not more") {
+  std::vector<std::uint32_t> keypoints{1, 2, 3, 5, 8, 13, 21, 34, 55};
+  keep_spread(keypoints, 20);
+  CHECK(keypoints.size() == 9);
+  keep_spread(keypoints, 9);
+  CHECK(keypoints.size() == 9);
+  keep_spread(keypoints, 3);
+  CHECK(keypoints == std::vector<std::uint32_t>{2, 8, 34});
+  keep_spread(keypoints, 1);
+  CHECK(keypoints == std::vector<std::uint32_t>{8});
 }
 
 TEST_CASE("a workload that cannot be is refused in the library's words") {
@@ -129,7 +143,7 @@ TEST_CASE("every build has the same stages, and they all run") {
   const std::vector<StageBuild> builds = build_stages(small_workload());
   REQUIRE(builds.size() == (cpu_has_avx2() ? 2 : 1));
   for (const StageBuild& build : builds) {
-    REQUIRE(build.stages.size() == 29);
+    REQUIRE(build.stages.size() == 30);
     for (std::size_t i = 0; i < build.stages.size(); ++i) {
       const Stage& stage = build.stages[i];
       CAPTURE(stage.name);
@@ -143,6 +157,12 @@ TEST_CASE("every build has the same stages, and they all run") {
     }
   }
   if (builds.size() == 2) CHECK(builds[1].isa == "avx2");
+  const Stage& frame = builds[0].stages.back();
+  CHECK(frame.whole_frame);
+  CHECK(frame.name == "whole frame Scsh336");
+  CHECK(frame.keypoints == frame_keypoints);
+  CHECK(frame.neighbors > frame.keypoints);
+  CHECK(frame.bytes == shortshot::Scsh336::size_bytes);
 }
 
 TEST_CASE("a cloud without colors and intensities has the stages that need none") {

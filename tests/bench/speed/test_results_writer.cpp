@@ -98,9 +98,9 @@ TEST_CASE("the report and the goals show every file") {
   CHECK(has(report, "| stage | CPU time | | ns/neighbor | bytes |\n"));
   CHECK(has(report, "| kernel | 8.25 | us | 6.50 | |\n| index | 1234 | us | | 4096 |\n"));
   CHECK_FALSE(has(report, "mean"));
-  CHECK(has(
-      report,
-      "| sample sse2 | 130 | point |\n| kernel Ssh32 sse2 | 60.2 | neighbor |\n| frame sse2 | 40.0 | neighbor |\n"));
+  CHECK(has(report,
+            "| sample sse2 | 130 | point |\n| kernel Ssh32 sse2 | 60.2 | neighbor |\n| frame sse2 | 40.0 | neighbor |\n"
+            "| whole frame Scsh336 sse2 | 204 million | frame |\n"));
   CHECK(has(report, "![cost and extra memory against threads](results/scaling_threads.svg)"));
   CHECK(has(report, "| threads | extract, ms | index, ms | extra memory |\n|---|---:|---:|---:|\n"));
   CHECK(has(report, "| 1 | 80.5 | | 2.0 MB |\n| 2 | 41.2 | 1.50 | 3.5 MB |\n"));
