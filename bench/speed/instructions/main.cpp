@@ -36,20 +36,21 @@ const std::string compiler = "GCC " TEXT(__GNUC__) MACHINE;
 const std::string workload =
     "generated tabletop, 640 x 480, seed 1, R = 0.04 m, 100 key points; normals: all points, R = 0.01 m; sample: "
     "voxels "
-    "of 0.01 m; whole frame: from raw points, 1000 of the key points so sampled";
+    "of 0.01 m; whole frame: from raw points, 1000 of the key points so sampled; mean shift: 2000 votes in a cubic "
+    "meter";
 
 bool is_gated(const std::string& stage) {
   for (const char* name :
        {"sample", "index grid again", "lab", "search grid", "frame", "normals", "kernel Ssh32", "kernel Scsh336",
         "kernel Scsh696", "kernel Shot352", "kernel Cshot1344", "kernel IntensityShape336", "kernel ShapeColor95",
-        "kernel ShapeColor32", "whole frame Scsh336"}) {
+        "kernel ShapeColor32", "mean shift", "whole frame Scsh336"}) {
     if (stage == name) return true;
   }
   return false;
 }
 
 std::string dump_of(const Stage& stage, const std::string& figure) {
-  if (stage.whole_frame) return dump_name(figure, 1, "frame");
+  if (stage.per_frame) return dump_name(figure, 1, "frame");
   return stage.neighbors > 0 ? dump_name(figure, stage.neighbors, "neighbor")
                              : dump_name(figure, stage.points, "point");
 }

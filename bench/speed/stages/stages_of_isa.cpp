@@ -15,6 +15,7 @@
 #include "shortshot/search/nanoflann.hpp"
 #include "shortshot/shortshot.hpp"
 #include "speed/stages/calls_of_isa.hpp"
+#include "speed/stages/mean_shift_of_isa.hpp"
 #include "tools/io/view_of_cloud.hpp"
 
 #ifndef STAGES
@@ -136,7 +137,19 @@ class StageList {
     stage.keypoints = memory->features.size();
     stage.neighbors = std::accumulate(neighbors.begin(), neighbors.end(), std::size_t{0});
     stage.bytes = D::size_bytes;
-    stage.whole_frame = true;
+    stage.per_frame = true;
+  }
+
+  /// The objects that 2000 key points have voted for.
+  void add_mean_shift() {
+    const auto votes = std::make_shared<std::vector<shortshot::detail::Vote>>(votes_in_cubic_meter(frame_votes));
+    const auto sum = std::make_shared<float>();
+    Stage& stage = add("mean shift", [votes, sum] {
+      *sum = climb_from_all(*votes, shortshot::RecognizerOptions{}.bandwidth);
+      return Status::ok;
+    });
+    stage.keypoints = votes->size();
+    stage.per_frame = true;
   }
 
   /// B-SHOT of the chosen key points, and the distances of the first one to all.
@@ -277,6 +290,7 @@ StageBuild STAGES(const Workload& workload) {
   list.add_descriptor<shortshot::ShapeColor95>("ShapeColor95");
   list.add_descriptor<shortshot::ShapeColor32>("ShapeColor32");
   list.add_binary<shortshot::Shot352>("Shot352");
+  list.add_mean_shift();
   list.add_whole_frame<shortshot::Scsh336>("Scsh336");
   return {TEXT(STAGES_ISA), std::move(list.stages)};
 }

@@ -124,7 +124,10 @@ TEST_CASE("the record of the project has all stages of a frame for two instructi
     for (const std::string stage : {"sample ", "index grid again ", "lab "})
       expected.push_back({stage + isa, 1.0, "point"});
   }
-  for (const std::string isa : {"sse2", "avx2"}) expected.push_back({"whole frame Scsh336 " + isa, 1.0, "frame"});
+  for (const std::string isa : {"sse2", "avx2"}) {
+    for (const std::string stage : {"mean shift ", "whole frame Scsh336 "})
+      expected.push_back({stage + isa, 1.0, "frame"});
+  }
   REQUIRE(record.figures.size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(record.figures[i].name == expected[i].name);
 }

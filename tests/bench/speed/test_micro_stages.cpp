@@ -44,8 +44,10 @@ int exit_code_of(std::vector<std::string> arguments) {
   return parse_options(static_cast<int>(pointers.size()), pointers.data(), options, exit_code) ? -1 : exit_code;
 }
 
-/// Works on descriptors that are there already.
-bool is_binary(const Stage& stage) { return stage.name == "binarize Shot352" || stage.name == "hamming Shot352"; }
+/// Works on descriptors or votes that are there already.
+bool is_after_description(const Stage& stage) {
+  return stage.name == "binarize Shot352" || stage.name == "hamming Shot352" || stage.name == "mean shift";
+}
 
 /// Keeps what Google Benchmark reports.
 class Recorder : public benchmark::BenchmarkReporter {
@@ -143,14 +145,14 @@ TEST_CASE("every build has the same stages, and they all run") {
   const std::vector<StageBuild> builds = build_stages(small_workload());
   REQUIRE(builds.size() == (cpu_has_avx2() ? 2 : 1));
   for (const StageBuild& build : builds) {
-    REQUIRE(build.stages.size() == 30);
+    REQUIRE(build.stages.size() == 31);
     for (std::size_t i = 0; i < build.stages.size(); ++i) {
       const Stage& stage = build.stages[i];
       CAPTURE(stage.name);
       CHECK(stage.name == builds[0].stages[i].name);
       CHECK(stage.neighbors == builds[0].stages[i].neighbors);
       CHECK((stage.points > 0) != (stage.keypoints > 0));
-      const bool looks_at_neighbors = stage.points > 0 ? stage.name == "normals" : !is_binary(stage);
+      const bool looks_at_neighbors = stage.points > 0 ? stage.name == "normals" : !is_after_description(stage);
       CHECK((stage.neighbors > 0) == looks_at_neighbors);
       CHECK(stage.run() == shortshot::Status::ok);
       CHECK(stage.run() == shortshot::Status::ok);
@@ -158,7 +160,7 @@ TEST_CASE("every build has the same stages, and they all run") {
   }
   if (builds.size() == 2) CHECK(builds[1].isa == "avx2");
   const Stage& frame = builds[0].stages.back();
-  CHECK(frame.whole_frame);
+  CHECK(frame.per_frame);
   CHECK(frame.name == "whole frame Scsh336");
   CHECK(frame.keypoints == frame_keypoints);
   CHECK(frame.neighbors > frame.keypoints);
@@ -171,7 +173,7 @@ TEST_CASE("a cloud without colors and intensities has the stages that need none"
   scene.intensity.clear();
   const Workload workload = make_workload(std::move(scene), {});
   const std::vector<StageBuild> builds = build_stages(workload);
-  CHECK(builds[0].stages.size() == 16);
+  CHECK(builds[0].stages.size() == 17);
   for (const Stage& stage : builds[0].stages) {
     CAPTURE(stage.name);
     CHECK(stage.name.find("Scsh") == std::string::npos);
@@ -186,7 +188,7 @@ TEST_CASE("a cloud with intensities and no colors has their stages, too") {
   scene.rgb.clear();
   const Workload workload = make_workload(std::move(scene), {});
   const std::vector<StageBuild> builds = build_stages(workload);
-  CHECK(builds[0].stages.size() == 18);
+  CHECK(builds[0].stages.size() == 19);
   const auto is_intensity = [](const Stage& stage) { return stage.name == "kernel IntensityShape336"; };
   CHECK(std::count_if(builds[0].stages.begin(), builds[0].stages.end(), is_intensity) == 1);
 }
