@@ -14,7 +14,8 @@ namespace shortshot_bench::results {
 using scaling::CurvePoint;
 using scaling::JsonRow;
 
-/// The README's few rows: one cloud, plain -O2 and -mavx2 next to each other, against the peers that matter most.
+/// The README's few rows: whole frames of one cloud, plain -O2 and -mavx2 next to each other, beside the peers that
+/// matter most.
 std::string headline(const std::string& peers_path, const std::vector<JsonRow>& peers, const Machine& machine);
 
 std::string machine_lines(const Machine& machine);

@@ -25,6 +25,7 @@ struct Goal {
   PerBuild bound;  // nothing: no goal of that build
   std::function<PerBuild(const CloudResult& result)> measured;
   std::string if_missing;  // how to measure it
+  std::string cloud{};     // of what is the same with all results
 };
 
 /// All of them, in their table's order.

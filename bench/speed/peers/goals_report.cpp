@@ -48,7 +48,7 @@ std::optional<Worst> worst_of(const Goal& goal, std::size_t build, const std::ve
     if (worst && (higher_is_worse ? *value <= worst->value : *value >= worst->value)) continue;
     const bool met =
         goal.limit == Limit::none || (higher_is_worse ? *value <= *goal.bound[build] : *value >= *goal.bound[build]);
-    worst = Worst{result.cloud, *value, met};
+    worst = Worst{goal.cloud.empty() ? result.cloud : goal.cloud, *value, met};
   }
   return worst;
 }

@@ -205,6 +205,7 @@ TEST_CASE("peers: instructions come from the committed figures, each of its unit
     const auto o2 = worst_of(goal_named(name), 0, any);
     const auto avx2 = worst_of(goal_named(name), 1, any);
     REQUIRE(o2);
+    CHECK(o2->cloud == "tabletop");
     REQUIRE(avx2);
     CHECK(o2->value > avx2->value);
     CHECK(o2->value < 1000.0);
