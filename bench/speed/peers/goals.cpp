@@ -193,7 +193,8 @@ std::vector<Goal> reports() {
   };
   return {
       report("SCSH-336, whole frame, PCL SHOTColor / ours", ratio("SCSH-336", whole_frame, "PCL SHOTColor")),
-      report("the same, PCL with fast normals", ratio("SCSH-336", whole_frame, "PCL SHOTColor, fast normals")),
+      report("SCSH-336, whole frame, PCL SHOTColor with fast normals / ours",
+             ratio("SCSH-336", whole_frame, "PCL SHOTColor, fast normals"), "the cloud is no image"),
       report("SCSH-336, whole frame, Open3D FPFH of as many points / ours",
              ratio("SCSH-336", whole_frame, "Open3D FPFH, as many points"), no_open3d),
       report("SCSH-336, whole frame, naive double / ours", ratio("SCSH-336", whole_frame, "naive double", "SCSH-336")),
