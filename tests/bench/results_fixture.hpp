@@ -12,13 +12,15 @@ namespace results_fixture {
 
 /// One comparison, as ./run peers writes them.
 inline std::string comparison(const std::string& descriptor, const std::string& peer, const std::string& build,
-                              double ratio) {
+                              double ratio, const std::string& search = "grid") {
   const double us = 360.0 / ratio;
   std::ostringstream row;
-  row << R"({"cloud": "desk.pcd", "points": 170000, "keypoints": 1000, "radius": 0.04, "mean_neighbors": 831.2,)"
-      << R"( "descriptor": ")" << descriptor << R"(", "build": ")" << build << R"(", "search": "grid", "peer": ")"
-      << peer << R"(", "us_per_keypoint": )" << us << R"(, "peer_us_per_keypoint": 360, "ratio_per_keypoint": )"
-      << ratio << R"(, "ratio_frame": )" << 1.5 * ratio << R"(, "peak_bytes": 5200000, "peer_peak_bytes": 31400})";
+  row << R"({"cloud": "desk.pcd", "points": 170000, "keypoints": 1000, "radius": 0.04, "leaf": 0.01, "mean_neighbors": 831.2,)"
+      << R"( "descriptor": ")" << descriptor << R"(", "build": ")" << build << R"(", "search": ")" << search
+      << R"(", "peer": ")" << peer << R"(", "us_per_keypoint": )" << us
+      << R"(, "peer_us_per_keypoint": 360, "ratio_per_keypoint": )" << ratio << R"(, "frame_ms": )" << 600.0 / ratio
+      << R"(, "peer_frame_ms": 900, "ratio_frame": )" << 1.5 * ratio
+      << R"(, "peak_bytes": 5200000, "peer_peak_bytes": 31400})";
   return row.str();
 }
 
@@ -31,6 +33,8 @@ inline std::string peers() {
     for (const char* build : {"O2", "avx2"})
       list += (list.empty() ? "[" : ", ") + comparison(descriptor, peer, build, ratio *= 2.0);
   }
+  for (const char* build : {"O2", "avx2"})
+    list += ", " + comparison("key points", "PCL VoxelGrid", build, 2.0, "voxels");
   return list + "]";
 }
 
@@ -88,7 +92,8 @@ class Project {
        "bytes": 4096}]})");
     write("bench/speed/instructions/expected.json", R"({"compiler": "GCC 12", "flags": "-O2", "workload": "tabletop",
       "instructions_per_neighbor": {"kernel Ssh32 sse2": 60.25, "frame sse2": 40},
-      "instructions_per_point": {"sample sse2": 130}})");
+      "instructions_per_point": {"sample sse2": 130},
+      "instructions_per_frame": {"whole frame Scsh336 sse2": 204123456}})");
     write("bench/results/scaling.json", R"([
       {"curve": "threads", "x": 1, "x_name": "threads", "series": "extract", "value": 80.5, "unit": "ms",
        "extra_bytes": 2000000, "repetitions": 3},

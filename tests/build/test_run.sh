@@ -80,6 +80,16 @@ expect "apt-get install -y --no-install-recommends doctest-dev$"
 expect "cmake --preset default -DSHORTSHOT_REQUIRE_ALL_TESTS=OFF$"
 expect "cmake --build .*--target unit_tests.test_voting$"
 
+echo "a machine that Open3D is not made for: it is left out, said so, and the other peers are compared"
+user 0
+lacks libopen3d-dev
+stub apt-get "echo apt-get \"\$@\" >>'$log'; case \$1 in install) exit 100 ;; esac"
+attempt peers
+[ "$code" = 127 ] || fail "exit code $code, not 127"
+grep -q "Open3D is left out" "$directory/out" || fail "nothing is said of Open3D"
+expect "cmake --build --preset peers"
+stub apt-get "echo apt-get \"\$@\" >>'$log'"
+
 echo "a name that no file of tests has, or several have: the files are named"
 for name in otin twice ''; do
   attempt unit $name

@@ -14,7 +14,8 @@ namespace shortshot_bench::results {
 using scaling::CurvePoint;
 using scaling::JsonRow;
 
-/// The README's few rows: one cloud, plain -O2 and -mavx2 next to each other, against the peers that matter most.
+/// The README's few rows: whole frames of one cloud, plain -O2 and -mavx2 next to each other, beside the peers that
+/// matter most.
 std::string headline(const std::string& peers_path, const std::vector<JsonRow>& peers, const Machine& machine);
 
 std::string machine_lines(const Machine& machine);
@@ -25,7 +26,7 @@ std::string peers_table(const std::vector<JsonRow>& peers);
 std::string micro_table(const std::string& path, const nlohmann::ordered_json& json);
 
 /// `json` is the instruction gate's record: compiler, flags, workload, instructions_per_point,
-/// instructions_per_neighbor.
+/// instructions_per_neighbor, instructions_per_frame.
 std::string instructions_table(const std::string& path, const nlohmann::ordered_json& json);
 
 /// `json` is what ./run firmware --record wrote: the README's rows, and the firmware page's tables.

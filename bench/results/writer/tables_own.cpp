@@ -45,6 +45,9 @@ std::string without_suffix(const std::string& text, const std::string& suffix) {
   return ends ? text.substr(0, text.size() - suffix.size()) : text;
 }
 
+/// Of instructions: 93.3, or 212 million.
+std::string count_of(double count) { return count < 1e6 ? digits(count) : digits(1e-6 * count) + " million"; }
+
 /// Rows are the curve's x, columns its series and the largest extra memory of any of them.
 std::string scaling_table(const std::vector<CurvePoint>& points) {
   const std::vector<std::string> series = scaling::distinct(points, &CurvePoint::series);
@@ -107,11 +110,11 @@ std::string micro_table(const std::string& path, const nlohmann::ordered_json& j
 std::string instructions_table(const std::string& path, const nlohmann::ordered_json& json) {
   const JsonRow record(path, 1, json);
   Table table({"stage", "instructions", "for each"});
-  for (const char* key : {"instructions_per_point", "instructions_per_neighbor"}) {
+  for (const char* key : {"instructions_per_point", "instructions_per_neighbor", "instructions_per_frame"}) {
     const JsonRow figures(path, 1, record.value(key));
     const std::string unit = std::string(key).substr(std::string(key).rfind('_') + 1);
     for (const auto& [name, value] : figures.object().items())
-      table.add({name, digits(figures.number(name.c_str())), unit});
+      table.add({name, count_of(figures.number(name.c_str())), unit});
   }
   return "\n" + record.text("workload") + "; " + record.text("compiler") + ", `" + record.text("flags") + "`.\n\n" +
          table.markdown() + "\n";

@@ -11,7 +11,7 @@ namespace {
 
 const std::string dump_line = "desc: Trigger: Client Request: ";
 const std::string count_line = "totals: ";  // the last one of a dump
-const std::string units[] = {"neighbor", "point", "key point"};
+const std::string units[] = {"neighbor", "point", "key point", "frame"};
 
 bool starts_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;

@@ -10,7 +10,7 @@ namespace shortshot_bench {
 struct Figure {
   std::string name;  // stage and instruction set: "kernel Scsh336 sse2"
   double instructions;
-  std::string per = "neighbor";  // "point" of the cloud where a stage looks at all of it, or "key point"
+  std::string per = "neighbor";  // "point" of the cloud where a stage looks at all of it, "key point", "frame"
 };
 
 /// Figures that were recorded, and with what.
@@ -25,7 +25,7 @@ struct Record {
 /// recorded, too, so that they cannot become worse again unnoticed.
 inline constexpr double allowed_share = 0.03;
 
-/// The name of callgrind's dump for a stage that went through so many neighbors, points or key points.
+/// The name of callgrind's dump for a stage that went through so many neighbors, points, key points or frames.
 std::string dump_name(const std::string& figure, std::size_t count, const std::string& per);
 
 /// The figures in callgrind's output file, one for each dump of that name. Throws std::runtime_error if there is none,

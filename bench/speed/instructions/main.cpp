@@ -1,4 +1,4 @@
-// instructions: how many instructions the stages take per neighbor, against the figures on record.
+// instructions: how many instructions the stages take per neighbor, point or frame, against the figures on record.
 // `count` is to be run under callgrind, `check` and `update` read what it wrote.
 #include <valgrind/callgrind.h>
 
@@ -34,15 +34,25 @@ const std::string compiler = "clang " TEXT(__clang_major__) MACHINE;
 const std::string compiler = "GCC " TEXT(__GNUC__) MACHINE;
 #endif
 const std::string workload =
-    "generated tabletop, 640 x 480, seed 1, R = 0.04 m, 100 key points; normals: all points, R = 0.01 m";
+    "generated tabletop, 640 x 480, seed 1, R = 0.04 m, 100 key points; normals: all points, R = 0.01 m; sample: "
+    "voxels "
+    "of 0.01 m; whole frame: from raw points, 1000 of the key points so sampled; mean shift: 2000 votes in a cubic "
+    "meter";
 
 bool is_gated(const std::string& stage) {
-  for (const char* name : {"sample", "index grid again", "lab", "search grid", "frame", "normals", "kernel Ssh32",
-                           "kernel Scsh336", "kernel Scsh696", "kernel Shot352", "kernel Cshot1344",
-                           "kernel IntensityShape336", "kernel ShapeColor95", "kernel ShapeColor32"}) {
+  for (const char* name :
+       {"sample", "index grid again", "lab", "search grid", "frame", "normals", "kernel Ssh32", "kernel Scsh336",
+        "kernel Scsh696", "kernel Shot352", "kernel Cshot1344", "kernel IntensityShape336", "kernel ShapeColor95",
+        "kernel ShapeColor32", "mean shift", "whole frame Scsh336"}) {
     if (stage == name) return true;
   }
   return false;
+}
+
+std::string dump_of(const Stage& stage, const std::string& figure) {
+  if (stage.per_frame) return dump_name(figure, 1, "frame");
+  return stage.neighbors > 0 ? dump_name(figure, stage.neighbors, "neighbor")
+                             : dump_name(figure, stage.points, "point");
 }
 
 /// One dump for each stage, and nothing else counted.
@@ -52,9 +62,7 @@ int count() {
   for (const StageBuild& build : build_stages(work)) {
     for (const Stage& stage : build.stages) {
       if (!is_gated(stage.name)) continue;
-      const std::string figure = stage.name + " " + build.isa;
-      const std::string name = stage.neighbors > 0 ? dump_name(figure, stage.neighbors, "neighbor")
-                                                   : dump_name(figure, stage.points, "point");
+      const std::string name = dump_of(stage, stage.name + " " + build.isa);
       shortshot::Status status = stage.run();  // memory that grows does so before the count
       CALLGRIND_START_INSTRUMENTATION;
       if (status == shortshot::Status::ok) status = stage.run();
@@ -89,7 +97,7 @@ int check(const std::vector<Figure>& measured, const std::string& record_file) {
     return parse_record({std::istreambuf_iterator<char>(in), {}});
   });
   for (const Figure& figure : measured)
-    std::printf("%-30s %8.2f a %s\n", figure.name.c_str(), figure.instructions, figure.per.c_str());
+    std::printf("%-30s %12.2f a %s\n", figure.name.c_str(), figure.instructions, figure.per.c_str());
   if (record.compiler != compiler) {
     std::printf("not checked: recorded with %s, and this is %s\n", record.compiler.c_str(), compiler.c_str());
     return 0;
@@ -101,7 +109,7 @@ int check(const std::vector<Figure>& measured, const std::string& record_file) {
   const std::vector<std::string> lines = differences(measured, record.figures);
   for (const std::string& line : lines) std::fprintf(stderr, "%s\n", line.c_str());
   if (lines.empty()) {
-    std::printf("instructions per neighbor or point: %zu figures as recorded\n", measured.size());
+    std::printf("instructions per neighbor, point or frame: %zu figures as recorded\n", measured.size());
     return 0;
   }
   std::fprintf(stderr, "if that is meant: ./run instructions --update, and commit %s\n", record_file.c_str());
@@ -121,8 +129,8 @@ int update(const std::vector<Figure>& measured, const std::string& record_file) 
 
 int main(int argc, char** argv) {
   CLI::App app(
-      "Instructions per point or neighbor of key points, index, colors, search, frame, normals and kernel, by "
-      "callgrind, against the figures on record.");
+      "Instructions of key points, index, colors, search, frame, normals and kernel, per point or neighbor, and of a "
+      "whole camera frame, by callgrind, against the figures on record.");
   app.name("instructions");
   app.require_subcommand(1);
   std::string counts;

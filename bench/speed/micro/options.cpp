@@ -22,7 +22,8 @@ bool parse_options(int argc, char** argv, MicroOptions& options, int& exit_code)
   app.add_option("clouds", options.clouds, "PCD or PLY files");
   app.add_option("--radius", options.workload.radius, "support radius, in the clouds' unit (meters)")
       ->capture_default_str();
-  app.add_option("--leaf", options.workload.leaf, "voxel size of the uniform key points, in the same unit")
+  app.add_option("--leaf", options.workload.leaf,
+                 "voxel size of the uniform key points, in the same unit; half of it in whole frames")
       ->capture_default_str();
   app.add_option("--keypoints", options.workload.keypoints, "most key points for single stages, 1 to 100000")
       ->check(CLI::Range(1, 100000))

@@ -37,6 +37,7 @@ nlohmann::ordered_json to_json(const CloudResult& result) {
                     {"points", result.points},
                     {"keypoints", result.keypoints},
                     {"radius", result.radius},
+                    {"leaf", result.leaf},
                     {"mean_neighbors", result.mean_neighbors},
                     {"descriptor", c.ours->what.descriptor},
                     {"build", c.ours->what.build},
@@ -45,6 +46,7 @@ nlohmann::ordered_json to_json(const CloudResult& result) {
                     {"peer_descriptor", c.peer->what.descriptor},
                     {"us_per_keypoint", c.ours->us_per_keypoint},
                     {"peer_us_per_keypoint", c.peer->us_per_keypoint},
+                    {"peer_made", c.peer->what.made > 0 ? c.peer->what.made : result.keypoints},
                     {"ratio_per_keypoint", c.ratio_per_keypoint},
                     {"frame_ms", c.ours->frame_ms},
                     {"peer_frame_ms", c.peer->frame_ms},
@@ -62,10 +64,10 @@ nlohmann::ordered_json to_json(const CloudResult& result) {
 namespace {
 
 void print_contenders(const CloudResult& result) {
-  std::printf("%-28s %-11s %-10s %13s %10s %9s %8s\n", "", "descriptor", "search", "us/key point", "frame ms",
+  std::printf("%-32s %-25s %-10s %13s %10s %9s %8s\n", "", "descriptor", "search", "us for each", "frame ms",
               "extra MB", "samples");
   for (const MeasuredContender& m : result.contenders) {
-    std::printf("%-28s %-11s %-10s %13.2f %10.1f %9.1f %8s\n", implementation_of(m).c_str(), m.what.descriptor.c_str(),
+    std::printf("%-32s %-25s %-10s %13.3f %10.1f %9.1f %8s\n", implementation_of(m).c_str(), m.what.descriptor.c_str(),
                 m.what.search.c_str(), m.us_per_keypoint, m.frame_ms, 1e-6 * static_cast<double>(m.peak_bytes),
                 samples_of(m).c_str());
   }
@@ -81,10 +83,10 @@ void print_ratios(const CloudResult& result) {
     if (std::find(columns.begin(), columns.end(), column) == columns.end()) columns.push_back(column);
     lines[{c.ours->what.descriptor, c.peer->what.implementation}][column] = &c;
   }
-  std::printf("\n%-40s", "times as fast, per key point / frame");
+  std::printf("\n%-62s", "times as fast, for each key point / whole frame");
   for (const std::string& column : columns) std::printf(" %17s", column.c_str());
   for (const auto& [line, cells] : lines) {
-    std::printf("\n%-10s vs %-26s", line.first.c_str(), line.second.c_str());
+    std::printf("\n%-25s vs %-33s", line.first.c_str(), line.second.c_str());
     for (const std::string& column : columns) {
       const auto cell = cells.find(column);
       if (cell == cells.end()) {
@@ -114,8 +116,8 @@ void print_stages(const CloudResult& result) {
 }  // namespace
 
 void print_result(const CloudResult& result) {
-  std::printf("%s: %zu points, %zu key points, radius %g m, %.0f neighbors per key point\n", result.cloud.c_str(),
-              result.points, result.keypoints, result.radius, result.mean_neighbors);
+  std::printf("%s: %zu points, %zu key points of voxels of %g m, radius %g m, %.0f neighbors per key point\n",
+              result.cloud.c_str(), result.points, result.keypoints, result.leaf, result.radius, result.mean_neighbors);
   std::printf(
       "%zu of %zu samples come from an undisturbed core; medians are over those, or over all where none does\n\n",
       result.kept, result.taken);

@@ -6,14 +6,16 @@
 
 namespace shortshot_bench::peers {
 
-std::optional<double> committed_instructions(Stage stage, const std::string& build) {
+std::optional<double> committed_instructions(const std::string& stage, const std::string& per,
+                                             const std::string& build) {
   std::ifstream file(SHORTSHOT_INSTRUCTIONS_FILE);
   if (!file) return {};
-  const std::string isa = build == "O2" ? " sse2" : " " + build;
+  const std::string name = stage + (build == "O2" ? " sse2" : " " + build);
   try {
-    const auto figures = nlohmann::json::parse(file).at("instructions_per_neighbor");
-    const auto figure = [&](const std::string& name) { return figures.at(name + isa).get<double>(); };
-    return stage == Stage::kernel ? figure("kernel Scsh336") : figure("search grid") + figure("frame");
+    const auto figures = nlohmann::json::parse(file).at("instructions_per_" + per);
+    const auto figure = figures.find(name);
+    if (figure == figures.end()) return {};
+    return figure->get<double>();
   } catch (const nlohmann::json::exception& error) {
     throw std::runtime_error(SHORTSHOT_INSTRUCTIONS_FILE + std::string(": ") + error.what());
   }

@@ -1,4 +1,4 @@
-// Instructions per neighbor, which `./run instructions` counts and commits.
+// What `./run instructions` counts and commits.
 #pragma once
 
 #include <optional>
@@ -6,10 +6,9 @@
 
 namespace shortshot_bench::peers {
 
-enum class Stage { kernel, search_and_frame };
-
-/// Of SCSH-336 in the build "O2" or "avx2"; nothing if there is no such file. Throws std::runtime_error
-/// if the file is there but cannot be used.
-std::optional<double> committed_instructions(Stage stage, const std::string& build);
+/// Instructions of a stage per "neighbor", "point" or "frame" in the build "O2" or "avx2"; nothing if there is no such
+/// file or no such stage in it. Throws std::runtime_error if the file is there but cannot be used.
+std::optional<double> committed_instructions(const std::string& stage, const std::string& per,
+                                             const std::string& build);
 
 }  // namespace shortshot_bench::peers

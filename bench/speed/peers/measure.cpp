@@ -38,7 +38,8 @@ std::size_t peak_of_frame(const Suite& suite, const Contender& contender, const 
 MeasuredContender sum_up(const Task& task, const Contender& contender, const SuiteSamples& samples, double least_rate) {
   MeasuredContender measured{contender};
   const Samples& describing = samples[contender.describe];
-  measured.us_per_keypoint = 1e3 * describing.median_ms(least_rate) / static_cast<double>(task.keypoints.size());
+  const std::size_t made = contender.made > 0 ? contender.made : task.keypoints.size();
+  measured.us_per_keypoint = 1e3 * describing.median_ms(least_rate) / static_cast<double>(made);
   for (const std::size_t step : contender.frame) measured.frame_ms += samples[step].median_ms(least_rate);
   measured.kept = describing.kept(least_rate);
   measured.taken = describing.taken();
@@ -73,7 +74,11 @@ CloudResult measure(const Task& task, const std::vector<Suite>& suites, int roun
   }
   const double least_rate = undisturbed * best_rate;
 
-  CloudResult result{task.cloud, task.points.size(), task.keypoints.size(), static_cast<double>(task.radius),
+  CloudResult result{task.cloud,
+                     task.points.size(),
+                     task.keypoints.size(),
+                     static_cast<double>(task.radius),
+                     static_cast<double>(task.leaf),
                      task.mean_neighbors};
   auto peak = peaks.begin();
   for (std::size_t i = 0; i < suites.size(); ++i) {

@@ -20,7 +20,7 @@ struct MeasuredStep {
 
 struct MeasuredContender {
   Contender what{};
-  double us_per_keypoint = 0.0;
+  double us_per_keypoint = 0.0;  // or for each of what else is made
   double frame_ms = 0.0;
   std::size_t peak_bytes = 0;  // of a whole frame, without the descriptors themselves
   std::size_t kept = 0;        // samples, of `taken`, of the step that describes
@@ -32,6 +32,7 @@ struct CloudResult {
   std::size_t points = 0;
   std::size_t keypoints = 0;
   double radius = 0.0;
+  double leaf = 0.0;
   double mean_neighbors = 0.0;
   std::vector<MeasuredContender> contenders{};
   std::map<std::string, MeasuredStep> steps{};  // "SUITE: STEP"

@@ -3,7 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nanoflann.hpp>
+#include <unordered_map>
 
 #include "speed/peers/naive_color.hpp"
 
@@ -123,6 +125,37 @@ struct Naive::Tree {
 
 Naive::Naive(const Task& task) : task_(task) {}
 Naive::~Naive() = default;
+
+std::vector<std::uint32_t> Naive::sample() const {
+  using Cell = std::array<long, 3>;
+  struct Hash {
+    std::size_t operator()(const Cell& c) const {
+      return static_cast<std::size_t>(c[0] * 73856093 ^ c[1] * 19349663 ^ c[2] * 83492791);
+    }
+  };
+  struct Nearest {
+    double d2 = std::numeric_limits<double>::infinity();
+    std::uint32_t index = 0;
+  };
+  const auto leaf = static_cast<double>(task_.leaf);
+  std::unordered_map<Cell, Nearest, Hash> voxels;
+  for (std::uint32_t i = 0; i < task_.points.size(); ++i) {
+    Cell cell{};
+    double d2 = 0.0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double place = static_cast<double>(task_.points.xyz[3 * i + axis]) / leaf;
+      cell[axis] = std::lround(std::floor(place));
+      const double from_center = place - std::floor(place) - 0.5;
+      d2 += from_center * from_center;
+    }
+    Nearest& nearest = voxels[cell];
+    if (d2 < nearest.d2) nearest = {d2, i};
+  }
+  std::vector<std::uint32_t> keypoints;
+  for (const auto& [cell, nearest] : voxels) keypoints.push_back(nearest.index);
+  std::sort(keypoints.begin(), keypoints.end());
+  return keypoints;
+}
 
 void Naive::build_tree() {
   tree_.reset();

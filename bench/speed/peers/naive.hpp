@@ -34,6 +34,9 @@ class Naive {
   Naive(const Naive&) = delete;
   Naive& operator=(const Naive&) = delete;
 
+  /// The point nearest to the center of each voxel of the task's leaf, in ascending order.
+  std::vector<std::uint32_t> sample() const;
+
   void build_tree();      // leaves of 10 points
   void convert_colors();  // to CIELAB
   void release();         // both

@@ -14,6 +14,7 @@ struct State {
 
   const Task& task;
   Naive naive;
+  std::vector<std::uint32_t> sampled;
   std::vector<float> rows;
 
   void find_all() {
@@ -42,6 +43,12 @@ struct State {
 Suite make_naive_suite(const Task& task) {
   const auto state = std::make_shared<State>(task);
   Suite suite{"naive"};
+  const std::size_t sample = suite.add("sample", [state] { state->sampled = state->naive.sample(); });
+  Contender sampling{"naive double", key_points_made, {}, "voxels", sample, {sample}};
+  sampling.made = task.sampled.size();
+  sampling.output_bytes = sampling.made * sizeof(std::uint32_t);
+  sampling.against = {key_points_made};
+  suite.contenders.push_back(sampling);
   const std::size_t tree = suite.add("tree", [state] { state->naive.build_tree(); });
   const std::size_t lab = suite.add("Lab", [state] { state->naive.convert_colors(); });
   suite.add("search", [state] { state->find_all(); });
@@ -55,7 +62,7 @@ Suite make_naive_suite(const Task& task) {
     }
     Contender contender{"naive double", descriptor, {}, "nanoflann"};
     contender.describe = suite.add(descriptor, [=] { state->describe_all(parts, size); });
-    contender.frame = {tree};
+    contender.frame = {sample, tree};
     if (colored) contender.frame.push_back(lab);
     contender.frame.push_back(contender.describe);
     contender.output_bytes = task.keypoints.size() * size * sizeof(float);
@@ -68,7 +75,8 @@ Suite make_naive_suite(const Task& task) {
 
   suite.release = [state] {
     state->naive.release();
-    state->rows = std::vector<float>();  // {} would keep its memory
+    state->sampled = std::vector<std::uint32_t>();  // {} would keep its memory
+    state->rows = std::vector<float>();
   };
   return suite;
 }

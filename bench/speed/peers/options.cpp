@@ -6,8 +6,9 @@ namespace shortshot_bench::peers {
 
 bool parse_options(int argc, const char* const* argv, Options& options, int& exit_code) {
   CLI::App app(
-      "Compare shortshot's descriptors with PCL's and with a naive transcription: time and memory, in one run on one "
-      "thread. Without a file, on a tabletop scene made up on the spot.");
+      "Compare shortshot with PCL, Open3D and a naive transcription, from raw points to descriptors: time and memory, "
+      "in "
+      "one run on one thread. Without a file, on a tabletop scene made up on the spot.");
   app.name("peers");
   app.add_option("clouds", options.clouds, "PCD or PLY files with colors");
   // The library refuses what is no length: nan, inf, zero and below.

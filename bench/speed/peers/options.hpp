@@ -9,9 +9,9 @@ namespace shortshot_bench::peers {
 struct Options {
   std::vector<std::string> clouds;  // files; empty: the generated tabletop
   float radius = 0.04f;
-  float leaf = 0.02f;
+  float leaf = 0.01f;
   int rounds = 5;
-  bool fpfh = true;   // PCL's FPFH takes a minute per cloud
+  bool fpfh = true;   // PCL's takes a minute per cloud
   std::string json;   // where the comparisons go; empty: nowhere
   std::string goals;  // where the goals and what was measured go; empty: nowhere
 };

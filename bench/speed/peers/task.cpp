@@ -2,11 +2,11 @@
 
 #include <cmath>
 #include <numeric>
-#include <random>
 #include <stdexcept>
 #include <utility>
 
 #include "shortshot/shortshot.hpp"
+#include "speed/spread_keypoints.hpp"
 #include "tools/io/view_of_cloud.hpp"
 
 namespace shortshot_bench::peers {
@@ -30,15 +30,6 @@ RgbdCloud valid_points(const RgbdCloud& cloud) {
   return valid;
 }
 
-/// The same choice on every machine: the engine's output is specified by the standard.
-void draw(std::vector<std::uint32_t>& from, std::size_t count) {
-  std::mt19937 random(1);
-  for (std::size_t i = 0; i < count && i < from.size(); ++i) {
-    std::swap(from[i], from[i + random() % (from.size() - i)]);
-  }
-  if (from.size() > count) from.resize(count);
-}
-
 }  // namespace
 
 Task make_task(const std::string& name, const RgbdCloud& cloud, float radius, float leaf) {
@@ -48,9 +39,11 @@ Task make_task(const std::string& name, const RgbdCloud& cloud, float radius, fl
   task.points = valid_points(cloud);
   task.image = cloud;
   task.radius = radius;
+  task.leaf = leaf;
   const shortshot::CloudView view = view_of_cloud(task.points);
-  require(shortshot::sample_uniform(view, leaf, task.keypoints));
-  draw(task.keypoints, max_keypoints);
+  require(shortshot::sample_uniform(view, leaf, task.sampled));
+  task.keypoints = task.sampled;
+  keep_spread(task.keypoints, max_keypoints);
 
   const shortshot::GridSearch search(view, radius);
   shortshot::Features<shortshot::Ssh32> features;

@@ -21,7 +21,9 @@ struct Task {
   RgbdCloud points;                      // with colors, and none without a position: a list
   RgbdCloud image;                       // the same as it was read: with NaN where nothing was measured
   float radius = 0.0f;                   // meters
-  std::vector<std::uint32_t> keypoints;  // max_keypoints of the uniform sampling, or all if there are fewer
+  float leaf = 0.0f;                     // meters, of the voxels that key points are sampled in
+  std::vector<std::uint32_t> sampled;    // one point of each voxel
+  std::vector<std::uint32_t> keypoints;  // max_keypoints of these, evenly spread, or all if there are fewer
   double mean_neighbors = 0.0;           // of a key point, itself included
 };
 

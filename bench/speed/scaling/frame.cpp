@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "speed/spread_keypoints.hpp"
 #include "tools/scene/tabletop.hpp"
 
 namespace shortshot_bench::scaling {
@@ -26,8 +27,8 @@ ScalingCloud::ScalingCloud(std::size_t about_points) {
 }
 
 std::vector<std::uint32_t> spread_keypoints(const ScalingCloud& cloud, std::size_t count) {
-  std::vector<std::uint32_t> keypoints(count);
-  for (std::size_t k = 0; k < count; ++k) keypoints[k] = cloud.valid[(2 * k + 1) * cloud.valid.size() / (2 * count)];
+  std::vector<std::uint32_t> keypoints = cloud.valid;
+  keep_spread(keypoints, count);
   return keypoints;
 }
 
@@ -39,14 +40,16 @@ FrameWork::FrameWork(const ScalingCloud& cloud, std::size_t keypoints, float rad
 }
 
 std::vector<Cost> FrameWork::run(Clock clock) {
+  Cost sample;
   Cost build;
   Cost extract;
   const Cost whole = cost_of(clock, [&] {
+    sample = cost_of(clock, [&] { require(sampler_.sample_uniform(cloud_.view, scaling_leaf, sampled_)); });
     build = cost_of(clock, [&] { require(index_.build(cloud_.view, radius_)); });
     extract = cost_of(
         clock, [&] { require(extractor_.extract(cloud_.view, index_, keypoints_, radius_, features_, threads_)); });
   });
-  return {build, extract, whole};
+  return {sample, build, extract, whole};
 }
 
 std::vector<std::uint32_t> FrameWork::described() const {

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "shortshot/shortshot.hpp"
+#include "speed/spread_keypoints.hpp"
+#include "speed/stages/stages.hpp"
 
 namespace shortshot_bench {
 namespace {
@@ -15,6 +17,27 @@ using shortshot::Status;
 [[gnu::noinline]] Status sample(const shortshot::CloudView& view, float leaf, shortshot::KeypointSampler& sampler,
                                 std::vector<std::uint32_t>& keypoints) {
   return sampler.sample_uniform(view, leaf, keypoints);
+}
+
+/// What is kept from frame to frame.
+template <class D>
+struct FrameMemory {
+  shortshot::KeypointSampler sampler;
+  std::vector<std::uint32_t> keypoints;
+  shortshot::GridSearch search;
+  shortshot::Extractor<D> extractor;
+  shortshot::Features<D> features;
+};
+
+template <class D>
+[[gnu::noinline]] Status whole_frame(const shortshot::CloudView& view, float leaf, float radius,
+                                     FrameMemory<D>& memory) {
+  Status status = memory.sampler.sample_uniform(view, leaf, memory.keypoints);
+  if (status != Status::ok) return status;
+  keep_spread(memory.keypoints, frame_keypoints);
+  status = memory.search.build(view, radius);
+  if (status != Status::ok) return status;
+  return memory.extractor.extract(view, memory.search, memory.keypoints, radius, memory.features);
 }
 
 template <class Search>

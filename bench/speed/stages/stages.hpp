@@ -11,12 +11,19 @@
 
 namespace shortshot_bench {
 
+/// Key points of a whole frame, of those that are sampled.
+inline constexpr std::size_t frame_keypoints = 1000;
+
+/// Votes of mean shift.
+inline constexpr std::size_t frame_votes = 2000;
+
 struct Stage {
   std::string name;           // "search grid", "kernel Scsh336", ...
   std::size_t points = 0;     // how much one run goes through: points of the cloud, for stages that look at all of it,
   std::size_t keypoints = 0;  // key points, for the others,
   std::size_t neighbors = 0;  // and neighbors of these, or of those; 0: it looks at none
   std::size_t bytes = 0;      // size of what it makes: one descriptor, the index, the cloud's Lab; 0: not measured
+  bool per_frame = false;     // its cost is told for a camera frame: that of all of it, or of its votes for objects
   std::function<shortshot::Status()> run;  // the first status that is not ok
 };
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <nanoflann.hpp>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "shortshot/search/nanoflann.hpp"
 #include "shortshot/shortshot.hpp"
 #include "speed/stages/calls_of_isa.hpp"
+#include "speed/stages/mean_shift_of_isa.hpp"
 #include "tools/io/view_of_cloud.hpp"
 
 #ifndef STAGES
@@ -59,8 +61,9 @@ class StageList {
   void add_sample() {
     const auto sampler = std::make_shared<shortshot::KeypointSampler>();
     const auto keypoints = std::make_shared<std::vector<std::uint32_t>>();
-    Stage& stage =
-        add("sample", [&w = workload_, sampler, keypoints] { return sample(w.view(), w.leaf, *sampler, *keypoints); });
+    Stage& stage = add("sample", [&w = workload_, sampler, keypoints] {
+      return sample(w.view(), w.frame_leaf, *sampler, *keypoints);
+    });
     stage.points = workload_.cloud.size();
   }
 
@@ -120,6 +123,33 @@ class StageList {
     if (D::needs_intensities && !workload_.cloud.has_intensities()) return;
     add_kernel<D>(name);
     add_extract<D>(name);
+  }
+
+  /// From raw points to descriptors, in the memory of the last frame.
+  template <class D>
+  void add_whole_frame(const char* name) {
+    if (D::needs_colors && !workload_.cloud.has_colors()) return;
+    const auto memory = std::make_shared<FrameMemory<D>>();
+    Stage& stage = add(std::string("whole frame ") + name,
+                       [&w = workload_, memory] { return whole_frame<D>(w.view(), w.frame_leaf, w.radius, *memory); });
+    static_cast<void>(stage.run());  // a frame that fails says so when it is measured
+    const std::vector<std::uint32_t>& neighbors = memory->features.neighbors;
+    stage.keypoints = memory->features.size();
+    stage.neighbors = std::accumulate(neighbors.begin(), neighbors.end(), std::size_t{0});
+    stage.bytes = D::size_bytes;
+    stage.per_frame = true;
+  }
+
+  /// The objects that 2000 key points have voted for.
+  void add_mean_shift() {
+    const auto votes = std::make_shared<std::vector<shortshot::detail::Vote>>(votes_in_cubic_meter(frame_votes));
+    const auto sum = std::make_shared<float>();
+    Stage& stage = add("mean shift", [votes, sum] {
+      *sum = climb_from_all(*votes, shortshot::RecognizerOptions{}.bandwidth);
+      return Status::ok;
+    });
+    stage.keypoints = votes->size();
+    stage.per_frame = true;
   }
 
   /// B-SHOT of the chosen key points, and the distances of the first one to all.
@@ -260,6 +290,8 @@ StageBuild STAGES(const Workload& workload) {
   list.add_descriptor<shortshot::ShapeColor95>("ShapeColor95");
   list.add_descriptor<shortshot::ShapeColor32>("ShapeColor32");
   list.add_binary<shortshot::Shot352>("Shot352");
+  list.add_mean_shift();
+  list.add_whole_frame<shortshot::Scsh336>("Scsh336");
   return {TEXT(STAGES_ISA), std::move(list.stages)};
 }
 

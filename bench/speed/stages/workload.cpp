@@ -69,7 +69,12 @@ shortshot::Neighborhood NeighborhoodMemory::empty() const {
 shortshot::CloudView Workload::view() const { return shortshot::with_normals(view_of_cloud(cloud), normals.data()); }
 
 Workload make_workload(RgbdCloud cloud, const WorkloadOptions& options) {
-  Workload workload{std::move(cloud), options.radius, options.leaf, 0.25f * options.radius, {}, 0, {}, 0, {}, 0, 0};
+  Workload workload;
+  workload.cloud = std::move(cloud);
+  workload.radius = options.radius;
+  workload.leaf = options.leaf;
+  workload.frame_leaf = 0.5f * options.leaf;
+  workload.normal_radius = 0.25f * options.radius;
   add_normals(workload);
   const shortshot::CloudView view = workload.view();
   require(shortshot::sample_uniform(view, options.leaf, workload.sampled));

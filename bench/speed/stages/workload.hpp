@@ -44,16 +44,17 @@ struct GatheredKeyPoint {
 
 struct Workload {
   RgbdCloud cloud;
-  float radius;
-  float leaf;                                     // of the sampled key points
-  float normal_radius;                            // a quarter of it
+  float radius = 0.0f;
+  float leaf = 0.0f;                              // of the sampled key points
+  float frame_leaf = 0.0f;                        // half of it: of the sampling that a whole frame begins with
+  float normal_radius = 0.0f;                     // a quarter of the radius
   std::vector<shortshot::SurfaceNormal> normals;  // one per point, towards the camera
-  std::size_t normal_neighbors;                   // of all valid points together, within that radius
+  std::size_t normal_neighbors = 0;               // of all valid points together, within that radius
   std::vector<std::uint32_t> sampled;             // key points by uniform sampling: what extract() is given
-  std::size_t sampled_neighbors;                  // of them all together
+  std::size_t sampled_neighbors = 0;              // of them all together
   std::vector<GatheredKeyPoint> chosen;           // some of them, so few that their neighborhoods stay in the cache
-  std::size_t chosen_neighbors;                   // of these all together
-  std::uint32_t most_neighbors;                   // of one of these
+  std::size_t chosen_neighbors = 0;               // of these all together
+  std::uint32_t most_neighbors = 0;               // of one of these
 
   shortshot::CloudView view() const;  // with normals
 };

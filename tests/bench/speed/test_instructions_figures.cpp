@@ -33,14 +33,18 @@ TEST_CASE("callgrind's dumps become instructions per neighbor or point, and what
   const std::string head = "# callgrind format\nversion: 1\ncmd: ./instructions count\n";
   const std::string end = "\ndesc: Trigger: Program termination\n\nevents: Ir\nsummary: 0\n\ntotals: 77\n";
   const auto figures = read(head + dump(dump_name("frame sse2", 1000, "neighbor"), "21360") +
-                            dump(dump_name("sample avx2", 3, "point"), "12") + end);
-  REQUIRE(figures.size() == 2);
+                            dump(dump_name("sample avx2", 3, "point"), "12") +
+                            dump(dump_name("whole frame D sse2", 1, "frame"), "204123456") + end);
+  REQUIRE(figures.size() == 3);
   CHECK(figures[0].name == "frame sse2");
   CHECK(figures[0].instructions == doctest::Approx(21.36));
   CHECK(figures[0].per == "neighbor");
   CHECK(figures[1].name == "sample avx2");
   CHECK(figures[1].instructions == doctest::Approx(4.0));
   CHECK(figures[1].per == "point");
+  CHECK(figures[2].name == "whole frame D sse2");
+  CHECK(figures[2].instructions == 204123456.0);
+  CHECK(figures[2].per == "frame");
 }
 
 TEST_CASE("no or broken counts are refused") {
@@ -119,6 +123,10 @@ TEST_CASE("the record of the project has all stages of a frame for two instructi
   for (const std::string isa : {"sse2", "avx2"}) {
     for (const std::string stage : {"sample ", "index grid again ", "lab "})
       expected.push_back({stage + isa, 1.0, "point"});
+  }
+  for (const std::string isa : {"sse2", "avx2"}) {
+    for (const std::string stage : {"mean shift ", "whole frame Scsh336 "})
+      expected.push_back({stage + isa, 1.0, "frame"});
   }
   REQUIRE(record.figures.size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(record.figures[i].name == expected[i].name);

@@ -13,6 +13,7 @@
 #include "shortshot/shortshot.hpp"
 #include "speed/micro/options.hpp"
 #include "speed/micro/register.hpp"
+#include "speed/spread_keypoints.hpp"
 #include "speed/stages/stages.hpp"
 #include "tools/scene/tabletop.hpp"
 
@@ -43,8 +44,10 @@ int exit_code_of(std::vector<std::string> arguments) {
   return parse_options(static_cast<int>(pointers.size()), pointers.data(), options, exit_code) ? -1 : exit_code;
 }
 
-/// Works on descriptors that are there already.
-bool is_binary(const Stage& stage) { return stage.name == "binarize Shot352" || stage.name == "hamming Shot352"; }
+/// Works on descriptors or votes that are there already.
+bool is_after_description(const Stage& stage) {
+  return stage.name == "binarize Shot352" || stage.name == "hamming Shot352" || stage.name == "mean shift";
+}
 
 /// Keeps what Google Benchmark reports.
 class Recorder : public benchmark::BenchmarkReporter {
@@ -101,6 +104,7 @@ TEST_CASE("a workload holds what its stages need, and what it says of it is true
   CHECK(w.chosen_neighbors == neighbors);
   CHECK(w.most_neighbors == most);
   CHECK(w.normal_radius == 0.02f);
+  CHECK(w.frame_leaf == 0.01f);
   CHECK(w.normals.size() == w.cloud.size());
   CHECK(shortshot::has_normals(w.view()));
   const shortshot::BruteSearch everything{w.view()};
@@ -111,6 +115,18 @@ TEST_CASE("a workload holds what its stages need, and what it says of it is true
     normal_neighbors += n.found;
   }
   CHECK(w.normal_neighbors == normal_neighbors);
+}
+
+TEST_CASE("key points are kept evenly spread, in their order, and all where there are not more") {
+  std::vector<std::uint32_t> keypoints{1, 2, 3, 5, 8, 13, 21, 34, 55};
+  keep_spread(keypoints, 20);
+  CHECK(keypoints.size() == 9);
+  keep_spread(keypoints, 9);
+  CHECK(keypoints.size() == 9);
+  keep_spread(keypoints, 3);
+  CHECK(keypoints == std::vector<std::uint32_t>{2, 8, 34});
+  keep_spread(keypoints, 1);
+  CHECK(keypoints == std::vector<std::uint32_t>{8});
 }
 
 TEST_CASE("a workload that cannot be is refused in the library's words") {
@@ -129,20 +145,26 @@ TEST_CASE("every build has the same stages, and they all run") {
   const std::vector<StageBuild> builds = build_stages(small_workload());
   REQUIRE(builds.size() == (cpu_has_avx2() ? 2 : 1));
   for (const StageBuild& build : builds) {
-    REQUIRE(build.stages.size() == 29);
+    REQUIRE(build.stages.size() == 31);
     for (std::size_t i = 0; i < build.stages.size(); ++i) {
       const Stage& stage = build.stages[i];
       CAPTURE(stage.name);
       CHECK(stage.name == builds[0].stages[i].name);
       CHECK(stage.neighbors == builds[0].stages[i].neighbors);
       CHECK((stage.points > 0) != (stage.keypoints > 0));
-      const bool looks_at_neighbors = stage.points > 0 ? stage.name == "normals" : !is_binary(stage);
+      const bool looks_at_neighbors = stage.points > 0 ? stage.name == "normals" : !is_after_description(stage);
       CHECK((stage.neighbors > 0) == looks_at_neighbors);
       CHECK(stage.run() == shortshot::Status::ok);
       CHECK(stage.run() == shortshot::Status::ok);
     }
   }
   if (builds.size() == 2) CHECK(builds[1].isa == "avx2");
+  const Stage& frame = builds[0].stages.back();
+  CHECK(frame.per_frame);
+  CHECK(frame.name == "whole frame Scsh336");
+  CHECK(frame.keypoints == frame_keypoints);
+  CHECK(frame.neighbors > frame.keypoints);
+  CHECK(frame.bytes == shortshot::Scsh336::size_bytes);
 }
 
 TEST_CASE("a cloud without colors and intensities has the stages that need none") {
@@ -151,7 +173,7 @@ TEST_CASE("a cloud without colors and intensities has the stages that need none"
   scene.intensity.clear();
   const Workload workload = make_workload(std::move(scene), {});
   const std::vector<StageBuild> builds = build_stages(workload);
-  CHECK(builds[0].stages.size() == 16);
+  CHECK(builds[0].stages.size() == 17);
   for (const Stage& stage : builds[0].stages) {
     CAPTURE(stage.name);
     CHECK(stage.name.find("Scsh") == std::string::npos);
@@ -166,7 +188,7 @@ TEST_CASE("a cloud with intensities and no colors has their stages, too") {
   scene.rgb.clear();
   const Workload workload = make_workload(std::move(scene), {});
   const std::vector<StageBuild> builds = build_stages(workload);
-  CHECK(builds[0].stages.size() == 18);
+  CHECK(builds[0].stages.size() == 19);
   const auto is_intensity = [](const Stage& stage) { return stage.name == "kernel IntensityShape336"; };
   CHECK(std::count_if(builds[0].stages.begin(), builds[0].stages.end(), is_intensity) == 1);
 }

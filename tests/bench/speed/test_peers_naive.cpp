@@ -2,8 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <iterator>
 #include <vector>
 
 #include "shortshot/shortshot.hpp"
@@ -26,6 +29,13 @@ Task small_task() {
   options.width = 160;
   options.height = 120;
   return make_task("small", make_tabletop(options), 0.06f, 0.05f);
+}
+
+/// How many of two ascending lists are in both.
+std::size_t common(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+  std::vector<std::uint32_t> both;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+  return both.size();
 }
 
 /// Describes every key point in the library's frames, by the library and naively, and compares the two with each other
@@ -79,6 +89,13 @@ void compare(const Task& task, const std::vector<NaivePart>& parts, OracleDescri
 }
 
 }  // namespace
+
+TEST_CASE("naive: key points are the library's, but for points at the borders of voxels and in their middles") {
+  const Task task = small_task();
+  const std::vector<std::uint32_t> keypoints = Naive(task).sample();
+  CHECK(100 * common(keypoints, task.sampled) >= 99 * task.sampled.size());
+  CHECK(100 * common(keypoints, task.sampled) >= 99 * keypoints.size());
+}
 
 TEST_CASE("peers: the naive transcription describes as the library and the oracle do") {
   const Task task = small_task();

@@ -57,7 +57,9 @@ TEST_CASE("peers: every step runs once per round after the warm-up, suites in tu
   const std::size_t describe = suites[0].add("describe", write('d'));
   suites[0].contenders.push_back({"ours", "D", "O2", "grid", describe, {tree, describe}, 100});
   suites[0].release = write('r');
-  suites[1].add("work", write('w'));
+  Contender many{"peer", "key points", {}, "voxels", suites[1].add("work", write('w'))};
+  many.made = 10;
+  suites[1].contenders.push_back(many);
   suites[1].release = write('r');
   Task task;
   task.keypoints = {1, 2, 3, 4};
@@ -69,14 +71,16 @@ TEST_CASE("peers: every step runs once per round after the warm-up, suites in tu
   });
   CHECK(log ==
         "rtdpr"
+        "rpr"
         "tdw"
         "wtd"
         "tdw");
-  REQUIRE(result.contenders.size() == 1);
+  REQUIRE(result.contenders.size() == 2);
   const MeasuredContender& m = result.contenders[0];
   CHECK(m.peak_bytes == 50);
   CHECK(m.taken == 3);
   CHECK(m.us_per_keypoint == doctest::Approx(1e3 * result.steps.at("one: describe").ms / 4.0));
+  CHECK(result.contenders[1].us_per_keypoint == doctest::Approx(1e3 * result.steps.at("two: work").ms / 10.0));
   CHECK(m.frame_ms == doctest::Approx(result.steps.at("one: describe").ms + result.steps.at("one: tree").ms));
   CHECK(result.steps.count("two: work") == 1);
   CHECK(result.taken == 9);

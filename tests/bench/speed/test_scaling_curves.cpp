@@ -97,7 +97,15 @@ TEST_CASE("a frame's stages add up to its key points, more neighbors cost more")
   const ScalingCloud cloud(30000);
   FrameWork narrow(cloud, 200, 0.03f);
   FrameWork wide(cloud, 200, 0.12f);
-  CHECK(narrow.run(Clock::thread_cpu).size() == FrameWork::series().size());
+  const auto frame = narrow.run(Clock::thread_cpu);
+  REQUIRE(frame.size() == FrameWork::series().size());
+  CHECK(FrameWork::series() == std::vector<std::string>{"sample", "index build", "extract", "whole frame"});
+  double parts = 0.0;
+  for (std::size_t part = 0; part + 1 < frame.size(); ++part) {
+    CHECK(frame[part].seconds > 0.0);
+    parts += frame[part].seconds;
+  }
+  CHECK(frame.back().seconds >= parts);  // they are parts of it
   wide.run(Clock::wall);
   CHECK(wide.mean_neighbors() > 5.0 * narrow.mean_neighbors());
   CHECK(wide.most_neighbors() > wide.mean_neighbors());

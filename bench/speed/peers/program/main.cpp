@@ -1,4 +1,4 @@
-// peers: shortshot next to PCL and to a naive transcription, in one run on one thread.
+// peers: shortshot next to PCL, Open3D and a naive transcription, in one run on one thread.
 
 #include <algorithm>
 #include <cstdio>
@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "heap_count.hpp"
+#ifdef SHORTSHOT_PEERS_OPEN3D
+#include "open3d_peer.hpp"
+#endif
 #include "pcl_peer.hpp"
 #include "speed/peers/comparisons.hpp"
 #include "speed/peers/goals.hpp"
@@ -38,6 +41,9 @@ std::vector<Suite> make_suites(const Task& task, const Options& options) {
 #endif
   suites.push_back(make_naive_suite(task));
   suites.push_back(make_pcl_suite(task, options.fpfh));
+#ifdef SHORTSHOT_PEERS_OPEN3D
+  suites.push_back(make_open3d_suite(task));
+#endif
   return suites;
 }
 
@@ -125,6 +131,9 @@ int main(int argc, char** argv) {
   if (!__builtin_cpu_supports("avx2")) std::printf("build avx2 is left out: this CPU has no AVX2\n");
 #else
   std::printf("build avx2 is left out: this is no x86-64\n");
+#endif
+#ifndef SHORTSHOT_PEERS_OPEN3D
+  std::printf("Open3D is left out: it was not found when this was built\n");
 #endif
   try {
     return compare_all(options);

@@ -1,6 +1,7 @@
 // shortshot as contenders. Compiled once per instruction set: PEERS_SUITE is the function's name and PEERS_BUILD the
 // build's, which say with what flags. No type of an instruction set's own crosses the function's border.
 
+#include <cstdint>
 #include <memory>
 #include <nanoflann.hpp>
 #include <stdexcept>
@@ -12,6 +13,7 @@
 #include "shortshot/shortshot.hpp"
 #include "speed/peers/suite.hpp"
 #include "speed/peers/task.hpp"
+#include "speed/spread_keypoints.hpp"
 #include "tools/golden/neighbors.hpp"
 #include "tools/io/view_of_cloud.hpp"
 
@@ -54,10 +56,17 @@ struct State {
   ss::CloudView view;  // with normals once they are there
   Grid grid, normal_grid;
   Tree tree;
+  std::vector<std::uint32_t> keypoints;
   std::vector<ss::SurfaceNormal> normals;
   std::vector<ss::Lab> lab;
   golden::Neighbors neighbors;
 };
+
+/// As in the first frame: nothing is kept of a frame before.
+void sample_keypoints(State& state) {
+  require(ss::sample_uniform(state.view, state.task.leaf, state.keypoints));
+  keep_spread(state.keypoints, max_keypoints);
+}
 
 /// By the grid that serves their radius best.
 void estimate_normals(State& state, const ss::CloudView& view) {
@@ -105,14 +114,14 @@ void describe_all(State& state, const Search& search, ss::Features<D>& features)
 /// Adds D with one search, given by the state's member and the steps before it, which build it.
 template <class D, class Index>
 void add_contender(Suite& suite, const std::shared_ptr<State>& state, Index State::*index,
-                   const std::vector<std::size_t>& before, const char* descriptor) {
+                   const std::vector<std::size_t>& before, const std::string& descriptor) {
   const auto extractor = std::make_shared<ss::Extractor<D>>();
   const auto features = std::make_shared<ss::Features<D>>();
   const auto extract = [=](unsigned threads) {
     const State& s = *state;
-    require(extractor->extract(s.view, *((*state).*index), s.task.keypoints, s.task.radius, *features, threads));
+    require(extractor->extract(s.view, *((*state).*index), s.keypoints, s.task.radius, *features, threads));
   };
-  const std::string name = std::string(descriptor) + ", " + Index::name;
+  const std::string name = descriptor + ", " + Index::name;
   Contender contender{"shortshot", descriptor, suite.name, Index::name};
   contender.frame = before;
   contender.frame.push_back(suite.add(name + ": extract", [=] { extract(1); }));
@@ -134,11 +143,39 @@ void add_contender(Suite& suite, const std::shared_ptr<State>& state, Index Stat
   };
 }
 
+/// What one step makes.
+void add_maker(Suite& suite, const char* makes, const char* search, std::size_t step, std::size_t made,
+               std::size_t bytes_of_each) {
+  Contender contender{"shortshot", makes, suite.name, search, step, {step}, made * bytes_of_each};
+  contender.made = made;
+  suite.contenders.push_back(contender);
+}
+
+/// Steps of a frame before its descriptors.
+struct Steps {
+  std::size_t sample, grid, tree;
+};
+
 template <class D>
-void add_descriptor(Suite& suite, const std::shared_ptr<State>& state, std::size_t grid, std::size_t tree,
-                    const char* descriptor) {
-  add_contender<D>(suite, state, &State::grid, {grid}, descriptor);
-  add_contender<D>(suite, state, &State::tree, {tree}, descriptor);
+void add_descriptor(Suite& suite, const std::shared_ptr<State>& state, const Steps& steps, const char* descriptor) {
+  add_contender<D>(suite, state, &State::grid, {steps.sample, steps.grid}, descriptor);
+  add_contender<D>(suite, state, &State::tree, {steps.sample, steps.tree}, descriptor);
+}
+
+/// A way to estimate normals, of the image and of the points, and the descriptors that need them, PCL's own, defects
+/// included, so that both sides compute the same. `suffix` tells them from those with normals of another way.
+template <class Estimate>
+void add_with_normals(Suite& suite, const std::shared_ptr<State>& state, const Steps& steps, const char* makes,
+                      const std::string& suffix, Estimate estimate) {
+  const std::size_t of_image = suite.add(makes, [=] { estimate(*state, view_of_cloud(state->task.image)); });
+  add_maker(suite, makes, Grid::name, of_image, state->task.image.size(), sizeof(ss::SurfaceNormal));
+  const std::size_t normals = suite.add("normals" + suffix, [=] {
+    estimate(*state, state->view);
+    state->view = ss::with_normals(state->view, state->normals.data());
+  });
+  const std::vector<std::size_t> before{steps.sample, steps.grid, normals};
+  add_contender<ss::PclShot352>(suite, state, &State::grid, before, "SHOT-352" + suffix);
+  add_contender<ss::PclCshot1344>(suite, state, &State::grid, before, "CSHOT-1344" + suffix);
 }
 
 }  // namespace
@@ -150,28 +187,25 @@ Suite PEERS_SUITE(const Task& task) {
     state->grid.release();
     state->normal_grid.release();
     state->tree.release();
+    state->keypoints = std::vector<std::uint32_t>();  // {} would keep its memory
     state->view.normals = {};
-    state->normals = std::vector<ss::SurfaceNormal>();  // {} would keep its memory
+    state->normals = std::vector<ss::SurfaceNormal>();
     state->lab = std::vector<ss::Lab>();
     state->neighbors = {};
   };
-  const std::size_t grid = suite.add("grid", [=] { state->grid.build(state->view, state->task.radius); });
-  const std::size_t tree = suite.add("tree", [=] { state->tree.build(state->view, state->task.radius); });
+  Steps steps{};
+  steps.sample = suite.add("sample", [=] { sample_keypoints(*state); });
+  add_maker(suite, key_points_made, "voxels", steps.sample, task.sampled.size(), sizeof(std::uint32_t));
+  steps.grid = suite.add("grid", [=] { state->grid.build(state->view, state->task.radius); });
+  steps.tree = suite.add("tree", [=] { state->tree.build(state->view, state->task.radius); });
   suite.add("search, grid", [=] { find_all(*state, *state->grid); });
   suite.add("search, nanoflann", [=] { find_all(*state, *state->tree); });
   suite.add("Lab", [=] { convert_colors<ss::PublishedLab>(*state); });
-  add_descriptor<ss::Ssh32>(suite, state, grid, tree, "SSH-32");
-  add_descriptor<ss::Scsh336>(suite, state, grid, tree, "SCSH-336");
-  add_descriptor<ss::Scsh696>(suite, state, grid, tree, "SCSH-696");
-  // PCL's own descriptors, defects included, so that both sides compute the same.
-  suite.add("normals of the image", [=] { estimate_normals(*state, view_of_cloud(state->task.image)); });
-  const std::size_t normals = suite.add("normals", [=] {
-    estimate_normals(*state, state->view);
-    state->view = ss::with_normals(state->view, state->normals.data());
-  });
+  add_descriptor<ss::Ssh32>(suite, state, steps, "SSH-32");
+  add_descriptor<ss::Scsh336>(suite, state, steps, "SCSH-336");
+  add_descriptor<ss::Scsh696>(suite, state, steps, "SCSH-696");
   suite.add("Lab, PCL's rule", [=] { convert_colors<ss::PclCshot1344::LabRule>(*state); });
-  add_contender<ss::PclShot352>(suite, state, &State::grid, {grid, normals}, "SHOT-352");
-  add_contender<ss::PclCshot1344>(suite, state, &State::grid, {grid, normals}, "CSHOT-1344");
+  add_with_normals(suite, state, steps, normals_made, "", estimate_normals);
   return suite;
 }
 
