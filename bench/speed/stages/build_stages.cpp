@@ -19,8 +19,9 @@ std::vector<StageBuild> build_stages(const Workload& workload) {
 #if defined(__x86_64__)
   if (cpu_has_avx2()) {
     builds.push_back(stages_avx2(workload));
+    builds.push_back(stages_baseline(workload));
   } else {
-    std::fputs("avx2: skipped, this CPU has none\n", stderr);
+    std::fputs("avx2, baseline: skipped, this CPU has no AVX2\n", stderr);
   }
 #endif
   return builds;

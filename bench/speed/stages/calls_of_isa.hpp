@@ -2,6 +2,9 @@
 // compiler cannot merge them with the loops of the benchmark.
 #pragma once
 
+#include <malloc.h>
+
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +16,18 @@ namespace shortshot_bench {
 namespace {
 
 using shortshot::Status;
+
+std::size_t allocated_bytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+template <class Search>
+std::size_t index_bytes(const Workload& workload) {
+  const std::size_t before = allocated_bytes();
+  const Search search(workload.view(), workload.radius);
+  return allocated_bytes() - before;
+}
 
 [[gnu::noinline]] Status sample(const shortshot::CloudView& view, float leaf, shortshot::KeypointSampler& sampler,
                                 std::vector<std::uint32_t>& keypoints) {
@@ -65,6 +80,14 @@ template <class D, class Sources>
 template <class Rule>
 [[gnu::noinline]] Status lab_of_cloud(const shortshot::CloudView& view, shortshot::Lab* lab) {
   return shortshot::convert_colors<Rule>(view, lab);
+}
+
+/// As extract() does it.
+template <class Rule>
+[[gnu::noinline]] Status lab_of_cloud_by(const shortshot::LabTable<Rule>& table, const shortshot::CloudView& view,
+                                         shortshot::Lab* lab) {
+  shortshot::detail::convert_widest<Rule>(view, 0, view.size, table.roots(), lab);
+  return Status::ok;
 }
 
 template <class D>

@@ -2,8 +2,6 @@
 // an inline namespace of its own, so that one program can hold several.
 #include "speed/stages/stages_of_isa.hpp"
 
-#include <malloc.h>
-
 #include <cstdint>
 #include <memory>
 #include <nanoflann.hpp>
@@ -33,18 +31,6 @@
 
 namespace shortshot_bench {
 namespace {
-
-std::size_t allocated_bytes() {
-  const struct mallinfo2 info = mallinfo2();
-  return info.uordblks + info.hblkhd;
-}
-
-template <class Search>
-std::size_t index_bytes(const Workload& workload) {
-  const std::size_t before = allocated_bytes();
-  const Search search(workload.view(), workload.radius);
-  return allocated_bytes() - before;
-}
 
 /// nanoflann's tree, made like a grid.
 struct Tree : shortshot::NanoflannSearch {
@@ -77,8 +63,8 @@ class StageList {
 
   /// The grid of the next frame, in the memory of the last one.
   void add_index_again() {
-    const Workload& w = workload_;
     const auto search = std::make_shared<shortshot::GridSearch>();
+    const Workload& w = workload_;
     Stage& stage = add("index grid again", [&w, search] { return search->build(w.view(), w.radius); });
     stage.points = w.cloud.size();
     stage.bytes = index_bytes<shortshot::GridSearch>(w);
@@ -110,8 +96,10 @@ class StageList {
 
   void add_lab() {
     if (!workload_.cloud.has_colors()) return;
-    Stage& stage = add("lab", [&w = workload_, lab = lab_by<shortshot::PublishedLab>()] {
-      return lab_of_cloud<shortshot::PublishedLab>(w.view(), lab->data());
+    const auto table = std::make_shared<shortshot::LabTable<shortshot::PublishedLab>>();
+    table->fill();
+    Stage& stage = add("lab", [&w = workload_, table, lab = lab_by<shortshot::PublishedLab>()] {
+      return lab_of_cloud_by(*table, w.view(), lab->data());
     });
     stage.points = workload_.cloud.size();
     stage.bytes = stage.points * sizeof(shortshot::Lab);
@@ -272,6 +260,9 @@ class StageList {
 StageBuild STAGES(const Workload& workload) {
   StageList list(workload);
   list.add_sample();
+#if defined(STAGES_THAT_CHOOSE)
+  list.add_index_again();
+#else
   list.add_index<shortshot::GridSearch>("grid");
   list.add_index_again();
   list.add_index<Tree>("nanoflann");
@@ -291,6 +282,7 @@ StageBuild STAGES(const Workload& workload) {
   list.add_descriptor<shortshot::ShapeColor32>("ShapeColor32");
   list.add_binary<shortshot::Shot352>("Shot352");
   list.add_mean_shift();
+#endif
   list.add_whole_frame<shortshot::Scsh336>("Scsh336");
   return {TEXT(STAGES_ISA), std::move(list.stages)};
 }
