@@ -89,21 +89,16 @@
 #ifndef SHORTSHOT_DISPATCH_HOT_KERNEL_HPP
 #define SHORTSHOT_DISPATCH_HOT_KERNEL_HPP
 
-// shortshot/cloud/voxel_lanes.hpp: in which voxel a point is, a register of points at a time.
-#ifndef SHORTSHOT_CLOUD_VOXEL_LANES_HPP
-#define SHORTSHOT_CLOUD_VOXEL_LANES_HPP
-
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-
-// shortshot/base/simd.hpp: the thin lane shim. Every pass of the kernel is written once, in terms of F32, I32 and Mask;
-// the compiler's own macros choose what they are: AVX2, SSE2, NEON (aarch64) or one lane at a time.
+// shortshot/base/products.hpp: products of the rows of one matrix with those of another, for recognition/match.hpp.
 //
-// All operations are exactly rounded IEEE single precision or pure bit moves, and every accumulation in the kernel is
-// an integer sum (fixed_point.hpp), so that the number of lanes never changes a result.
-#ifndef SHORTSHOT_BASE_SIMD_HPP
-#define SHORTSHOT_BASE_SIMD_HPP
+// The order of each sum is fixed: one sum for each pair of rows, over their values in ascending order, each product
+// rounded by itself. Lanes hold sums of different rows, so neither their number nor the place of a tile, nor threads,
+// nor a fused multiply-add change a bit. Blocked for registers and caches it is as fast as Eigen's product (SSE2,
+// AVX2).
+#ifndef SHORTSHOT_BASE_PRODUCTS_HPP
+#define SHORTSHOT_BASE_PRODUCTS_HPP
+
+#include <cstddef>
 
 // shortshot/config.hpp: the macros the library sets. Options are template parameters. There is one macro for you to
 // set, which changes no result: with -DSHORTSHOT_NO_DISPATCH the library keeps to the instructions that the compiler
@@ -218,9 +213,19 @@ using namespace extend;
 }  // namespace shortshot
 #endif  // SHORTSHOT_CONFIG_HPP
 
+// shortshot/base/simd.hpp: the thin lane shim. Every pass of the kernel is written once, in terms of F32, I32 and Mask;
+// the compiler's own macros choose what they are: AVX2, SSE2, NEON (aarch64) or one lane at a time.
+//
+// All operations are exactly rounded IEEE single precision or pure bit moves, and every accumulation in the kernel is
+// an integer sum (fixed_point.hpp), so that the number of lanes never changes a result.
+#ifndef SHORTSHOT_BASE_SIMD_HPP
+#define SHORTSHOT_BASE_SIMD_HPP
+
 // shortshot/base/quad.hpp: four integers side by side in memory, for all lane shims.
 #ifndef SHORTSHOT_BASE_QUAD_HPP
 #define SHORTSHOT_BASE_QUAD_HPP
+
+#include <cstdint>
 
 namespace shortshot::extend::simd {
 inline namespace SHORTSHOT_CODE {
@@ -1101,6 +1106,61 @@ SHORTSHOT_INLINE void each(Function f) noexcept {
 }  // namespace shortshot::detail
 
 #endif  // SHORTSHOT_BASE_UNROLL_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Rows that lie side by side.
+inline constexpr std::size_t panel_rows = 16;
+
+/// Rows that meet a panel at once: twelve registers of sums, and four for a panel's values, a row's and a product are
+/// the 16 that SSE2 and AVX2 have.
+inline constexpr std::size_t tile_rows = simd::lanes > 4 ? 6 : 3;
+
+/// Puts rows side by side: value 0 of all of them, then value 1, and so on.
+[[gnu::noinline]] inline void pack(const float* const (&rows)[panel_rows], std::size_t size, float* panel) noexcept {
+  for (std::size_t i = 0; i < size; ++i) {
+    for (std::size_t k = 0; k < panel_rows; k += simd::lanes) {
+      simd::store(panel, simd::from_lanes([&](std::size_t lane) { return rows[k + lane][i]; }));
+      panel += simd::lanes;
+    }
+  }
+}
+
+/// The products of each row of a tile with those of a panel, in their order.
+template <std::size_t Rows>
+[[gnu::noinline]] void multiply(const float* panel, const float* const (&rows)[Rows], std::size_t size,
+                                float (&products)[Rows][panel_rows]) noexcept {
+  constexpr std::size_t registers = panel_rows / simd::lanes;
+  simd::F32 sums[Rows][registers];
+  const float* row[Rows];
+  unroll<int{Rows}>([&](auto r) {
+    row[r] = rows[r];
+    unroll<int{registers}>([&](auto k) { sums[r][k] = simd::all(0.0f); });
+  });
+  for (std::size_t i = 0; i < size; ++i) {
+    unroll<int{Rows}>([&](auto r) SHORTSHOT_INLINE_LAMBDA {
+      const simd::F32 value = simd::all(row[r][i]);
+      unroll<int{registers}>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+        sums[r][k] = sums[r][k] + value * simd::load(panel + k * simd::lanes);
+      });
+    });
+    panel += panel_rows;
+  }
+  unroll<int{Rows}>(
+      [&](auto r) { unroll<int{registers}>([&](auto k) { simd::store(products[r] + k * simd::lanes, sums[r][k]); }); });
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_BASE_PRODUCTS_HPP
+
+// shortshot/cloud/voxel_lanes.hpp: in which voxel a point is, a register of points at a time.
+#ifndef SHORTSHOT_CLOUD_VOXEL_LANES_HPP
+#define SHORTSHOT_CLOUD_VOXEL_LANES_HPP
+
+#include <cmath>
 
 // shortshot/cloud/cloud.hpp: the only door for point clouds. A CloudView borrows the user's own memory, whatever its
 // layout.
@@ -9286,6 +9346,7 @@ using namespace extend;
 
 #undef SHORTSHOT_BASE_FIXED_POINT_HPP
 #undef SHORTSHOT_BASE_MATH_HPP
+#undef SHORTSHOT_BASE_PRODUCTS_HPP
 #undef SHORTSHOT_BASE_QUAD_HPP
 #undef SHORTSHOT_BASE_QUIET_HPP
 #undef SHORTSHOT_BASE_SIMD_AVX2_HPP
@@ -9577,6 +9638,19 @@ inline void convert_widest(const CloudView& cloud, std::size_t begin, std::size_
   }
 #endif
   convert_range_by<Rule>(roots, cloud, begin, end, &lab->L);
+}
+
+/// multiply().
+template <std::size_t Rows>
+inline void multiply_widest(const float* panel, const float* const (&rows)[Rows], std::size_t size,
+                            float (&products)[Rows][panel_rows]) noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  if (has_wider_lanes()) {
+    ::shortshot_avx2::detail::multiply(panel, rows, size, products);
+    return;
+  }
+#endif
+  multiply(panel, rows, size, products);
 }
 
 using HostGrid = Grid<std::uint32_t>;
@@ -12826,63 +12900,6 @@ inline namespace SHORTSHOT_CODE {
 }  // namespace shortshot
 #endif  // SHORTSHOT_RECOGNITION_L2_DISTANCE_HPP
 
-// shortshot/recognition/products.hpp: products of the rows of one matrix with those of another, for match.hpp.
-//
-// The order of each sum is fixed: one sum for each pair of rows, over their values in ascending order, each product
-// rounded by itself. Lanes hold sums of different rows, so neither their number nor the place of a tile, nor threads,
-// nor a fused multiply-add change a bit. Blocked for registers and caches it is as fast as Eigen's product (SSE2,
-// AVX2).
-#ifndef SHORTSHOT_RECOGNITION_PRODUCTS_HPP
-#define SHORTSHOT_RECOGNITION_PRODUCTS_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// Twelve sums, the two registers of the panel, one for a value of the other matrix and one for a product: the 16
-/// registers that SSE2 and AVX2 have.
-inline constexpr int tile_rows = 6;
-inline constexpr int panel_registers = 2;
-inline constexpr std::size_t panel_rows = panel_registers * simd::lanes;
-
-/// The products of one row with those of a panel, in their order.
-struct PanelProducts {
-  simd::F32 of[panel_registers];
-};
-
-/// Puts rows side by side: value 0 of all of them, then value 1, and so on.
-[[gnu::noinline]] inline void pack(const float* const (&rows)[panel_rows], std::size_t size, float* panel) noexcept {
-  for (std::size_t i = 0; i < size; ++i) {
-    for (std::size_t k = 0; k < panel_rows; k += simd::lanes) {
-      simd::store(panel, simd::from_lanes([&](std::size_t lane) { return rows[k + lane][i]; }));
-      panel += simd::lanes;
-    }
-  }
-}
-
-[[gnu::noinline]] inline void multiply(const float* panel, const float* const (&rows)[tile_rows], std::size_t size,
-                                       PanelProducts (&products)[tile_rows]) noexcept {
-  simd::F32 sums[tile_rows][panel_registers];
-  const float* row[tile_rows];
-  unroll<tile_rows>([&](auto r) {
-    row[r] = rows[r];
-    unroll<panel_registers>([&](auto k) { sums[r][k] = simd::all(0.0f); });
-  });
-  for (std::size_t i = 0; i < size; ++i) {
-    unroll<tile_rows>([&](auto r) SHORTSHOT_INLINE_LAMBDA {
-      const simd::F32 value = simd::all(row[r][i]);
-      unroll<panel_registers>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
-        sums[r][k] = sums[r][k] + value * simd::load(panel + k * simd::lanes);
-      });
-    });
-    panel += panel_rows;
-  }
-  unroll<tile_rows>([&](auto r) { unroll<panel_registers>([&](auto k) { products[r].of[k] = sums[r][k]; }); });
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_RECOGNITION_PRODUCTS_HPP
-
 // shortshot/recognition/row_format.hpp: what rows of descriptors must have to be matched: for who stores them in a
 // format of their own.
 #ifndef SHORTSHOT_RECOGNITION_ROW_FORMAT_HPP
@@ -13037,10 +13054,10 @@ class ComparedRows {
     pack(rows, rows_.size, panel);
   }
   /// With rows from `first` on; the last one's again where there are no more.
-  void multiply_tile(const float* panel, std::size_t first, PanelProducts (&products)[tile_rows]) const noexcept {
+  void multiply_tile(const float* panel, std::size_t first, float (&products)[tile_rows][panel_rows]) const noexcept {
     const float* rows[tile_rows];
     for (std::size_t k = 0; k < tile_rows; ++k) rows[k] = at(std::min(first + k, rows_.count - 1));
-    multiply(panel, rows, rows_.size, products);
+    multiply_widest(panel, rows, rows_.size, products);
   }
 
  private:
@@ -13067,7 +13084,7 @@ void for_products(Executor& executor, std::size_t team, const ComparedRows& quer
       const std::size_t last = std::min(first + row_block, database.count());
       for (std::size_t q = begin; q < end; q += panel_rows) {
         for (std::size_t tile = first; tile < last; tile += tile_rows) {
-          PanelProducts products[tile_rows];
+          float products[tile_rows][panel_rows];
           database.multiply_tile(block + (q - begin) * size, tile, products);
           for (std::size_t row = tile; row < std::min(tile + tile_rows, last); ++row) {
             if (database.takes_part(row)) compare(thread, q, row, products[row - tile]);
@@ -13082,12 +13099,12 @@ void for_products(Executor& executor, std::size_t team, const ComparedRows& quer
 /// Calls consider(query) for those queries of a panel, from `first` on, whose squared distance from a row, of which
 /// there is a half norm, may be below twice the limits(query), which are in a register for each query and those next.
 template <class Limits, class Consider>
-void for_candidates(const ComparedRows& queries, std::size_t first, float half_norm, const PanelProducts& products,
-                    const Limits& limits, const Consider& consider) {
+void for_candidates(const ComparedRows& queries, std::size_t first, float half_norm,
+                    const float (&products)[panel_rows], const Limits& limits, const Consider& consider) {
   for (std::size_t k = 0; k < panel_rows; k += simd::lanes) {
     const std::size_t query = first + k;
     const simd::F32 half_norms = simd::load(queries.half_norm(query));
-    const simd::F32 half_distances = (half_norms - products.of[k / simd::lanes]) + simd::all(half_norm);
+    const simd::F32 half_distances = (half_norms - simd::load(products + k)) + simd::all(half_norm);
     const simd::Mask near = half_distances < limits(query);
     if (!any(near)) continue;
     std::int32_t is_near[simd::lanes];
@@ -13121,7 +13138,7 @@ struct NearPairs {
   void (*consider)(const void* considering, std::size_t thread, std::size_t query, std::size_t row);
   const void* considering;
 
-  void operator()(std::size_t thread, std::size_t first, std::size_t row, const PanelProducts& products) const {
+  void operator()(std::size_t thread, std::size_t first, std::size_t row, const float (&products)[panel_rows]) const {
     const float of_row = best_of_rows != nullptr ? best_of_rows[thread * database.count() + row].compared : 0.0f;
     const simd::F32 half_of_row = simd::all(0.5f * of_row);
     const auto halves = [&](std::size_t query) { return simd::max(limits.halves(query), half_of_row); };

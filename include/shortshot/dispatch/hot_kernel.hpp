@@ -3,6 +3,7 @@
 #ifndef SHORTSHOT_DISPATCH_HOT_KERNEL_HPP
 #define SHORTSHOT_DISPATCH_HOT_KERNEL_HPP
 
+#include "../base/products.hpp"
 #include "../cloud/voxel_lanes.hpp"
 #include "../color/lab_lanes.hpp"
 #include "../descriptor/compact.hpp"

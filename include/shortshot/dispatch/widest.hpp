@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "../base/products.hpp"
 #include "../cloud/cloud.hpp"
 #include "../cloud/voxel_lanes.hpp"
 #include "../color/lab.hpp"
@@ -121,6 +122,19 @@ inline void convert_widest(const CloudView& cloud, std::size_t begin, std::size_
   }
 #endif
   convert_range_by<Rule>(roots, cloud, begin, end, &lab->L);
+}
+
+/// multiply().
+template <std::size_t Rows>
+inline void multiply_widest(const float* panel, const float* const (&rows)[Rows], std::size_t size,
+                            float (&products)[Rows][panel_rows]) noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  if (has_wider_lanes()) {
+    ::shortshot_avx2::detail::multiply(panel, rows, size, products);
+    return;
+  }
+#endif
+  multiply(panel, rows, size, products);
 }
 
 using HostGrid = Grid<std::uint32_t>;

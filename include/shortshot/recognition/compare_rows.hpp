@@ -17,13 +17,14 @@
 #include <vector>
 
 #include "../base/math.hpp"
+#include "../base/products.hpp"
 #include "../base/simd.hpp"
 #include "../batch/executor.hpp"
 #include "../config.hpp"
+#include "../dispatch/widest.hpp"
 #include "../status.hpp"
 #include "descriptor_rows.hpp"
 #include "l2_distance.hpp"
-#include "products.hpp"
 #include "row_format.hpp"
 
 namespace shortshot::detail {
@@ -87,10 +88,10 @@ class ComparedRows {
     pack(rows, rows_.size, panel);
   }
   /// With rows from `first` on; the last one's again where there are no more.
-  void multiply_tile(const float* panel, std::size_t first, PanelProducts (&products)[tile_rows]) const noexcept {
+  void multiply_tile(const float* panel, std::size_t first, float (&products)[tile_rows][panel_rows]) const noexcept {
     const float* rows[tile_rows];
     for (std::size_t k = 0; k < tile_rows; ++k) rows[k] = at(std::min(first + k, rows_.count - 1));
-    multiply(panel, rows, rows_.size, products);
+    multiply_widest(panel, rows, rows_.size, products);
   }
 
  private:
@@ -117,7 +118,7 @@ void for_products(Executor& executor, std::size_t team, const ComparedRows& quer
       const std::size_t last = std::min(first + row_block, database.count());
       for (std::size_t q = begin; q < end; q += panel_rows) {
         for (std::size_t tile = first; tile < last; tile += tile_rows) {
-          PanelProducts products[tile_rows];
+          float products[tile_rows][panel_rows];
           database.multiply_tile(block + (q - begin) * size, tile, products);
           for (std::size_t row = tile; row < std::min(tile + tile_rows, last); ++row) {
             if (database.takes_part(row)) compare(thread, q, row, products[row - tile]);
@@ -132,12 +133,12 @@ void for_products(Executor& executor, std::size_t team, const ComparedRows& quer
 /// Calls consider(query) for those queries of a panel, from `first` on, whose squared distance from a row, of which
 /// there is a half norm, may be below twice the limits(query), which are in a register for each query and those next.
 template <class Limits, class Consider>
-void for_candidates(const ComparedRows& queries, std::size_t first, float half_norm, const PanelProducts& products,
-                    const Limits& limits, const Consider& consider) {
+void for_candidates(const ComparedRows& queries, std::size_t first, float half_norm,
+                    const float (&products)[panel_rows], const Limits& limits, const Consider& consider) {
   for (std::size_t k = 0; k < panel_rows; k += simd::lanes) {
     const std::size_t query = first + k;
     const simd::F32 half_norms = simd::load(queries.half_norm(query));
-    const simd::F32 half_distances = (half_norms - products.of[k / simd::lanes]) + simd::all(half_norm);
+    const simd::F32 half_distances = (half_norms - simd::load(products + k)) + simd::all(half_norm);
     const simd::Mask near = half_distances < limits(query);
     if (!any(near)) continue;
     std::int32_t is_near[simd::lanes];
@@ -171,7 +172,7 @@ struct NearPairs {
   void (*consider)(const void* considering, std::size_t thread, std::size_t query, std::size_t row);
   const void* considering;
 
-  void operator()(std::size_t thread, std::size_t first, std::size_t row, const PanelProducts& products) const {
+  void operator()(std::size_t thread, std::size_t first, std::size_t row, const float (&products)[panel_rows]) const {
     const float of_row = best_of_rows != nullptr ? best_of_rows[thread * database.count() + row].compared : 0.0f;
     const simd::F32 half_of_row = simd::all(0.5f * of_row);
     const auto halves = [&](std::size_t query) { return simd::max(limits.halves(query), half_of_row); };

@@ -117,6 +117,19 @@ TEST_CASE("dispatch: the same key points") {
   }
 }
 
+TEST_CASE("dispatch: the same matches") {
+  const Choice choice;
+  const TestCloud cloud = surface();
+  const ss::Features<ss::Scsh336> rows = extracted<ss::Scsh336>(cloud.view(), some_keypoints(cloud), false);
+  std::vector<ss::Match> matches[2];
+  for (const bool wide : {false, true}) {
+    static_cast<void>(ss::extend::allow_wider_lanes(wide));
+    REQUIRE(ss::nearest(ss::rows_of(rows), ss::rows_of(rows), 3, matches[wide ? 1 : 0]) == Status::ok);
+  }
+  REQUIRE(matches[0].size() == 3 * rows.size());
+  CHECK(std::memcmp(matches[0].data(), matches[1].data(), matches[0].size() * sizeof(ss::Match)) == 0);
+}
+
 TEST_CASE("dispatch: a signal of the caller's own is measured as ever") {
   using D = ss::Descriptor<ss::HardVoting, ss::Part<ss::SphericalGrid<1, 2, 4>, Height>>;
   const Choice choice;

@@ -44,14 +44,10 @@ TEST_CASE("match: products are summed up in one order, whatever the lanes, the t
       std::vector<int> seen(sizes.queries * sizes.database);
       std::vector<int> wrong(threads);
       const auto compare = [&](std::size_t thread, std::size_t first, std::size_t row,
-                               const ss::detail::PanelProducts& products) {
-        float values[ss::detail::panel_rows];
-        for (std::size_t k = 0; k < ss::detail::panel_rows; k += ss::extend::simd::lanes) {
-          ss::extend::simd::store(values + k, products.of[k / ss::extend::simd::lanes]);
-        }
+                               const float(&products)[ss::detail::panel_rows]) {
         for (std::size_t q = first; q < std::min(first + ss::detail::panel_rows, sizes.queries); ++q) {
           ++seen[q * sizes.database + row];
-          wrong[thread] += same_bits(values[q - first], product(queries, q, database, row)) ? 0 : 1;
+          wrong[thread] += same_bits(products[q - first], product(queries, q, database, row)) ? 0 : 1;
         }
       };
       ss::detail::StartedThreads executor(threads);
