@@ -221,7 +221,7 @@ using namespace extend;
 #ifndef SHORTSHOT_BASE_SIMD_HPP
 #define SHORTSHOT_BASE_SIMD_HPP
 
-// shortshot/base/quad.hpp: four integers side by side in memory, for all lane shims.
+// shortshot/base/quad.hpp: four numbers side by side in memory, for all lane shims.
 #ifndef SHORTSHOT_BASE_QUAD_HPP
 #define SHORTSHOT_BASE_QUAD_HPP
 
@@ -232,6 +232,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// One addition where there are lanes.
 using Quad = std::int32_t __attribute__((vector_size(16)));
+using FloatQuad = float __attribute__((vector_size(16)));
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd
@@ -1811,381 +1812,6 @@ inline std::size_t place_in_voxels(const CloudView& cloud, float leaf, std::size
 
 #endif  // SHORTSHOT_CLOUD_VOXEL_LANES_HPP
 
-// shortshot/color/lab_lanes.hpp: sRGB bytes -> CIELAB, a register of colors at a time, by a table of roots.
-#ifndef SHORTSHOT_COLOR_LAB_LANES_HPP
-#define SHORTSHOT_COLOR_LAB_LANES_HPP
-
-// shortshot/color/lab.hpp: sRGB bytes -> CIELAB, and the color distance of CSHOT and SCSH.
-//
-// Both existing codes quantize the CIE ratios to 1/4000 and look their cube root up in a table of 4000 entries; here
-// the same quantized ratio goes through a computed root, so that 16 KB of tables are not needed and pure white, which
-// reads past the end of both tables, is defined (in PclLab, too: as what PCL was seen to read there).
-#ifndef SHORTSHOT_COLOR_LAB_HPP
-#define SHORTSHOT_COLOR_LAB_HPP
-
-// shortshot/color/fixed_power.hpp: the roots of CIELAB, in integers: half the instructions of a float version that is
-// as good, a fortieth where there is no FPU, and nothing that could round differently elsewhere.
-#ifndef SHORTSHOT_COLOR_FIXED_POWER_HPP
-#define SHORTSHOT_COLOR_FIXED_POWER_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// t^p of a fixed p below 1/2, for t from 2^-7 up to 2. With t = m 2^e, m from 1/2 to 1, and z = m - 1:
-/// t^p = (1 + z (c0 + z (c1 + ... + z c9))) 2^(e p).
-struct FixedPower {
-  std::int32_t fit[10];     ///< c0 to c9 in units of 2^-32: ((1 + z)^p - 1) / z at Chebyshev nodes
-  std::uint32_t octave[8];  ///< 2^(e p) in units of 2^-31, from e = -6 on
-
-  /// In units of 2^-31, of the float that has these bits.
-  [[nodiscard]] std::uint32_t fixed(std::uint32_t bits) const noexcept {
-    const auto z = static_cast<std::int32_t>(bits << 8 | 0x80000000u);  // in units of 2^-32
-    std::int32_t sum = fit[9];
-    each<9>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sum = fit[8 - k] + upper_half(sum, z); });
-    const auto power = static_cast<std::uint32_t>(upper_half(sum, z) + 1);  // modulo 1; rounded up, as the rest is down
-    return static_cast<std::uint32_t>((std::uint64_t{power} * octave[(bits >> 23) - 120u]) >> 32);
-  }
-
-  /// Within 2e-9 before it is rounded to float, once: of the 3965 numbers k / 4000 that CIELAB asks for, all but 18 are
-  /// the float that is closest, and those are the next one.
-  [[nodiscard]] float operator()(float t) const noexcept {
-    return unfused(static_cast<float>(fixed(math::bits_of(t))) * (1.0f / 2147483648.0f));
-  }
-
- private:
-  [[nodiscard]] static std::int32_t upper_half(std::int32_t a, std::int32_t b) noexcept {
-    return static_cast<std::int32_t>((std::int64_t{a} * b) >> 32);  // towards minus infinity, as simd::shift_right()
-  }
-};
-
-inline constexpr FixedPower cube_root{
-    {1431655764, -477219117, 265086957, -177611235, 118766867, -177798683, -243108994, -883031911, -1088405058,
-     -784821837},
-    {536870912u, 676414963u, 852229450u, 1073741824u, 1352829926u, 1704458901u, 2147483648u, 2705659852u}};
-
-/// t^0.3333, as the published SSH / SCSH code has it.
-inline constexpr FixedPower published_root{
-    {1431512598, -477195254, 265079000, -177608167, 118765444, -177800906, -243118475, -883057088, -1088438257,
-     -784843915},
-    {536945343u, 676493110u, 852308217u, 1073816253u, 1352892442u, 1704498283u, 2147483648u, 2705597339u}};
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-#endif  // SHORTSHOT_COLOR_FIXED_POWER_HPP
-
-// shortshot/color/srgb.hpp: sRGB's gamma undone, by a table of 1 KB or, where code shall be small, without: the same
-// bits.
-#ifndef SHORTSHOT_COLOR_SRGB_HPP
-#define SHORTSHOT_COLOR_SRGB_HPP
-
-#include <array>
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// n-th root by Newton's iteration, for tables that are built while compiling; never called at run time.
-constexpr double nth_root(double value, int n) noexcept {
-  double root = 1.0;
-  for (int step = 0; step < 100; ++step) {
-    double power = 1.0;
-    for (int k = 1; k < n; ++k) power *= root;
-    const double next = ((n - 1) * root + value / power) / n;
-    if (next == root) break;
-    root = next;
-  }
-  return root;
-}
-
-/// Natural logarithm of 0.05 <= value <= 1 to 1e-6, likewise only while compiling: ln v = 2 artanh((v - 1) / (v + 1)).
-constexpr double log_series(double value) noexcept {
-  const double s = (value - 1.0) / (value + 1.0);
-  double power = s;
-  double sum = 0.0;
-  for (int k = 1; k < 120; k += 2) {
-    sum += power / k;
-    power *= s * s;
-  }
-  return 2.0 * sum;
-}
-
-/// A power of 2.4 with the existing codes' own roundings, because one bit more or less would move some ratios across a
-/// step of their tables: the base is a float, and so is the exponent.
-constexpr float srgb_power(float number) noexcept {
-  const double base = static_cast<double>(number);
-  const double excess = static_cast<double>(2.4f) - 2.4;
-  return static_cast<float>(base * base * nth_root(base * base, 5) * (1.0 + excess * log_series(base)));
-}
-
-constexpr std::array<float, 256> make_srgb_to_linear() noexcept {
-  std::array<float, 256> table{};
-  for (std::size_t i = 0; i < table.size(); ++i) {
-    const float c = static_cast<float>(i) / 255.0f;
-    table[i] = c > 0.04045f ? srgb_power((c + 0.055f) / 1.055f) : c / 12.92f;
-  }
-  return table;
-}
-
-inline constexpr std::array<float, 256> srgb_to_linear = make_srgb_to_linear();
-
-inline constexpr FixedPower srgb_root{
-    {1717987336, -515393476, 275016773, -175895406, 155978275, 49167834, 531163086, 686271253, 616103588, 0},
-    {406871906u, 536870735u, 708405228u, 934746364u, 1233405304u, 1627488163u, 2147483648u, 2833621849u}};
-
-/// The same power of a number from 1/16 to 1 without double: the square of its mantissa times srgb_root of it, whose p
-/// is 2.4 - 2. Of all 245 numbers that the gamma has, each has the table's bits.
-[[nodiscard]] inline float small_srgb_power(float base) noexcept {
-  const std::uint32_t bits = math::bits_of(base);
-  const std::uint32_t mantissa = bits << 8 | 0x80000000u;
-  const auto square = static_cast<std::uint32_t>((std::uint64_t{mantissa} * mantissa) >> 32);
-  const std::uint64_t product = std::uint64_t{srgb_root.fixed(bits)} * square;  // in units of 2^-63
-  const auto high = static_cast<std::uint32_t>(product >> 32);
-  const int zeros = __builtin_clz(high);  // 1 to 4
-  const auto digits = static_cast<float>(high << zeros | static_cast<std::uint32_t>(product) >> (32 - zeros));
-  // Times 2^(2 e - zeros - 31), where base is less than 2^e.
-  const int exponent = 2 * (static_cast<int>(bits >> 23) - 126) - zeros - 31;
-  return unfused(digits * math::float_of(static_cast<std::uint32_t>(exponent + 127) << 23));
-}
-
-/// A byte without sRGB's gamma, 0 to 1.
-[[nodiscard]] constexpr float linear_of_srgb(std::uint8_t byte) noexcept {
-  if (!small_code || simd::lanes > 1 || __builtin_is_constant_evaluated()) return srgb_to_linear[byte];
-  const float c = static_cast<float>(byte) / 255.0f;
-  return c > 0.04045f ? small_srgb_power((c + 0.055f) / 1.055f) : c / 12.92f;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-#endif  // SHORTSHOT_COLOR_SRGB_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// CIELAB color: L in 0..100 (-16 for PclLab's white), a and b clamped to -120..120 as both existing codes do.
-struct Lab {
-  float L, a, b;
-};
-
-/// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
-struct PublishedLab {
-  static constexpr const char* name = "published Lab";  ///< for layout_of()
-  static constexpr bool leaves_gamut = false;           ///< are there sRGB colors beyond -120..120 in a or b?
-  /// Of a CIE ratio, 0 to 1.
-  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept {
-    return t > 0.008856f ? detail::published_root(t) : extend::unfused(7.787f * t) + 16.0f / 116.0f;
-  }
-};
-
-/// CIELAB by the formula of PCL's CSHOT: the cube root above the knee, 7.87 t + 16/116 below.
-struct CshotLab {
-  static constexpr const char* name = "CSHOT Lab";
-  static constexpr bool leaves_gamut = false;
-  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept {
-    return t > 0.008856f ? detail::cube_root(t) : extend::unfused(7.87f * t) + 16.0f / 116.0f;
-  }
-};
-
-/// The same as PCL's compiled code gives it: its table of roots ends before that of 1, where it reads a zero. White,
-/// the only color with such a ratio, becomes L = -16, a = 120, b = -120.
-struct PclLab {
-  static constexpr const char* name = "PCL Lab";
-  static constexpr bool leaves_gamut = true;
-  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept { return t < 1.0f ? CshotLab::root(t) : 0.0f; }
-};
-
-}  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// A color without sRGB's gamma.
-struct LinearRgb {
-  float of[3];
-};
-
-[[nodiscard]] constexpr LinearRgb to_linear(const Rgb& rgb) noexcept {
-  return {{linear_of_srgb(rgb.r), linear_of_srgb(rgb.g), linear_of_srgb(rgb.b)}};
-}
-
-/// Linear RGB to CIE XYZ, and the white point.
-inline constexpr float xyz_of_rgb[3][3] = {
-    {0.412453f, 0.357580f, 0.180423f}, {0.212671f, 0.715160f, 0.072169f}, {0.019334f, 0.119193f, 0.950227f}};
-inline constexpr float white_xyz[3] = {0.95047f, 1.0f, 1.08883f};
-
-/// A CIE ratio of a color (0: X / Xn, 1: Y / Yn, 2: Z / Zn) in whole steps of 1 / 4000: the position in the published
-/// tables.
-[[nodiscard]] constexpr int ratio_step(int ratio, const LinearRgb& rgb) noexcept {
-  const float(&row)[3] = xyz_of_rgb[ratio];
-  const float sum = unfused(rgb.of[0] * row[0]) + unfused(rgb.of[1] * row[1]) + unfused(rgb.of[2] * row[2]);
-  return static_cast<int>(sum / white_xyz[ratio] * 4000.0f);
-}
-
-/// The last step that a color can have. The ratios grow with each of the three bytes: no color is beyond white.
-inline constexpr int last_ratio_step = 4000;
-inline constexpr LinearRgb white = to_linear({255, 255, 255});
-static_assert(ratio_step(0, white) <= last_ratio_step && ratio_step(1, white) <= last_ratio_step &&
-                  ratio_step(2, white) <= last_ratio_step,
-              "white has the largest ratios");
-
-/// The root that `Rule` takes of a ratio of `step` / 4000.
-template <class Rule>
-[[nodiscard]] inline float root_of_step(int step) noexcept {
-  return Rule::root(static_cast<float>(step) / 4000.0f);
-}
-
-/// CIELAB of a color; root(step) is the root of a ratio, computed or from a table of them. Both existing codes clamp a
-/// and b to -120..120 (and L to 100), which is beyond what sRGB colors have but for PclLab's white.
-template <class Rule, class Root>
-inline void lab_by(const Root& root, const Rgb& rgb, Lab& lab) noexcept {
-  const LinearRgb linear = to_linear(rgb);
-  int steps[3];
-  float f[3];
-  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { steps[k] = ratio_step(k, linear); });
-  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { f[k] = root(steps[k]); });
-  lab = {unfused(116.0f * f[1]) - 16.0f, unfused(500.0f * (f[0] - f[1])), unfused(200.0f * (f[1] - f[2]))};
-  if constexpr (Rule::leaves_gamut) {
-    const auto clamp = [](float& value) { value = value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
-    clamp(lab.a);
-    clamp(lab.b);
-  }
-}
-
-/// to_lab(), written where it belongs: ARM's compilers copy a returned struct of three floats again and again.
-template <class Rule>
-[[gnu::always_inline]] inline void put_lab(const Rgb& rgb, Lab& lab) noexcept {
-  lab_by<Rule>([](int step) { return root_of_step<Rule>(step); }, rgb, lab);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// sRGB bytes to CIELAB by `Rule` (PublishedLab, CshotLab or PclLab). Source: what the published SSH / SCSH code and
-/// PCL 1.13 compute; within 1e-4 of either in L, a and b. No allocation, reentrant. LabTable (lab_table.hpp) gives the
-/// same bits several times faster, for 16 KB.
-template <class Rule>
-[[nodiscard]] inline Lab to_lab(const Rgb& rgb) noexcept {
-  Lab lab;
-  detail::put_lab<Rule>(rgb, lab);
-  return lab;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-
-namespace shortshot::extend {
-inline namespace SHORTSHOT_CODE {
-
-/// Lanes of CIELAB colors.
-struct LabLanes {
-  simd::F32 L, a, b;
-};
-
-[[nodiscard]] SHORTSHOT_INLINE LabLanes in_all_lanes(const Lab& color) noexcept {
-  return {simd::all(color.L), simd::all(color.a), simd::all(color.b)};
-}
-
-/// CSHOT's color distance, 0 to 1 for colors that sRGB has: (|dL| / 100 + (|da| / 120 + |db| / 120) / 2) / 3. NaN for
-/// somebody else's NaN.
-[[nodiscard]] SHORTSHOT_INLINE simd::F32 color_distances(const LabLanes& p, const LabLanes& q) noexcept {
-  using simd::all;
-  const simd::F32 chroma = simd::abs(p.a - q.a) + simd::abs(p.b - q.b);
-  return simd::abs(p.L - q.L) * all(1.0f / 300.0f) + chroma * all(1.0f / 720.0f);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::extend
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// The same of two colors, cut off at 1.
-[[nodiscard]] inline float color_distance(const Lab& p, const Lab& q) noexcept {
-  const extend::simd::F32 distances = extend::color_distances(extend::in_all_lanes(p), extend::in_all_lanes(q));
-  return extend::simd::largest(extend::simd::min(distances, extend::simd::all(1.0f)));
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-
-#endif  // SHORTSHOT_COLOR_LAB_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// CIELAB of linear RGB, as lab_by() gives it; roots[step] is a root.
-template <class Rule>
-[[nodiscard, gnu::always_inline]] inline LabLanes lab_of(const simd::F32 (&linear)[3], const float* roots) noexcept {
-  simd::F32 f[3];
-  unroll<3>([&](auto ratio) __attribute__((always_inline)) {
-    const float(&row)[3] = xyz_of_rgb[ratio];
-    const simd::F32 sum = linear[0] * simd::all(row[0]) + linear[1] * simd::all(row[1]) + linear[2] * simd::all(row[2]);
-    std::int32_t steps[simd::lanes];
-    simd::store(steps, truncate_to_int(sum / simd::all(white_xyz[ratio]) * simd::all(4000.0f)));
-    f[ratio] = simd::from_lanes([&](int k) { return roots[steps[k]]; });
-  });
-  LabLanes lab{simd::all(116.0f) * f[1] - simd::all(16.0f), simd::all(500.0f) * (f[0] - f[1]),
-               simd::all(200.0f) * (f[1] - f[2])};
-  if constexpr (Rule::leaves_gamut) {
-    lab.a = simd::max(simd::min(lab.a, simd::all(120.0f)), simd::all(-120.0f));
-    lab.b = simd::max(simd::min(lab.b, simd::all(120.0f)), simd::all(-120.0f));
-  }
-  return lab;
-}
-
-/// Colors [begin, end) of a cloud; `lab` is a Lab for each of its points, as floats.
-template <class Rule>
-inline void convert_range_by(const float* roots, const CloudView& cloud, std::size_t begin, std::size_t end,
-                             float* lab) noexcept {
-  const std::size_t stride = cloud.colors.stride_bytes;
-  const std::size_t first = begin * stride;
-  const unsigned char* r = cloud.colors.r + first;
-  const unsigned char* g = cloud.colors.g + first;
-  const unsigned char* b = cloud.colors.b + first;
-  lab += 3 * begin;
-  std::size_t i = begin;
-  for (; i + simd::lanes <= end; i += simd::lanes) {
-    const auto linear = [stride](const unsigned char*& at) __attribute__((always_inline)) {
-      const unsigned char* byte = at;
-      float values[simd::lanes];
-      unroll<static_cast<int>(simd::lanes)>([&](auto k) __attribute__((always_inline)) {
-        values[k] = linear_of_srgb(*byte);
-        byte += stride;
-      });
-      at = byte;
-      return simd::load(values);
-    };
-    const simd::F32 rgb[3] = {linear(r), linear(g), linear(b)};
-    const LabLanes colors = lab_of<Rule>(rgb, roots);
-    float of[3][simd::lanes];
-    simd::store(of[0], colors.L);
-    simd::store(of[1], colors.a);
-    simd::store(of[2], colors.b);
-    unroll<static_cast<int>(simd::lanes)>([&](auto k) __attribute__((always_inline)) {
-      lab[3 * k] = of[0][k];
-      lab[3 * k + 1] = of[1][k];
-      lab[3 * k + 2] = of[2][k];
-    });
-    lab += 3 * simd::lanes;
-  }
-  for (; i < end; ++i, lab += 3) {
-    Lab color;
-    lab_by<Rule>([roots](int step) { return roots[step]; }, extend::read(cloud.colors, i), color);
-    lab[0] = color.L;
-    lab[1] = color.a;
-    lab[2] = color.b;
-  }
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-#endif  // SHORTSHOT_COLOR_LAB_LANES_HPP
-
 // shortshot/descriptor/compact.hpp: compact descriptors. They find more than the published ones in a fraction of the
 // bytes: one pass of soft votes in SHOT's frame, nothing learned.
 //
@@ -3301,6 +2927,305 @@ struct CloudNormals {
 // before.
 #ifndef SHORTSHOT_COLOR_COLOR_SOURCE_HPP
 #define SHORTSHOT_COLOR_COLOR_SOURCE_HPP
+
+// shortshot/color/lab.hpp: sRGB bytes -> CIELAB, and the color distance of CSHOT and SCSH.
+//
+// Both existing codes quantize the CIE ratios to 1/4000 and look their cube root up in a table of 4000 entries; here
+// the same quantized ratio goes through a computed root, so that 16 KB of tables are not needed and pure white, which
+// reads past the end of both tables, is defined (in PclLab, too: as what PCL was seen to read there).
+#ifndef SHORTSHOT_COLOR_LAB_HPP
+#define SHORTSHOT_COLOR_LAB_HPP
+
+// shortshot/color/fixed_power.hpp: the roots of CIELAB, in integers: half the instructions of a float version that is
+// as good, a fortieth where there is no FPU, and nothing that could round differently elsewhere.
+#ifndef SHORTSHOT_COLOR_FIXED_POWER_HPP
+#define SHORTSHOT_COLOR_FIXED_POWER_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// t^p of a fixed p below 1/2, for t from 2^-7 up to 2. With t = m 2^e, m from 1/2 to 1, and z = m - 1:
+/// t^p = (1 + z (c0 + z (c1 + ... + z c9))) 2^(e p).
+struct FixedPower {
+  std::int32_t fit[10];     ///< c0 to c9 in units of 2^-32: ((1 + z)^p - 1) / z at Chebyshev nodes
+  std::uint32_t octave[8];  ///< 2^(e p) in units of 2^-31, from e = -6 on
+
+  /// In units of 2^-31, of the float that has these bits.
+  [[nodiscard]] std::uint32_t fixed(std::uint32_t bits) const noexcept {
+    const auto z = static_cast<std::int32_t>(bits << 8 | 0x80000000u);  // in units of 2^-32
+    std::int32_t sum = fit[9];
+    each<9>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sum = fit[8 - k] + upper_half(sum, z); });
+    const auto power = static_cast<std::uint32_t>(upper_half(sum, z) + 1);  // modulo 1; rounded up, as the rest is down
+    return static_cast<std::uint32_t>((std::uint64_t{power} * octave[(bits >> 23) - 120u]) >> 32);
+  }
+
+  /// Within 2e-9 before it is rounded to float, once: of the 3965 numbers k / 4000 that CIELAB asks for, all but 18 are
+  /// the float that is closest, and those are the next one.
+  [[nodiscard]] float operator()(float t) const noexcept {
+    return unfused(static_cast<float>(fixed(math::bits_of(t))) * (1.0f / 2147483648.0f));
+  }
+
+ private:
+  [[nodiscard]] static std::int32_t upper_half(std::int32_t a, std::int32_t b) noexcept {
+    return static_cast<std::int32_t>((std::int64_t{a} * b) >> 32);  // towards minus infinity, as simd::shift_right()
+  }
+};
+
+inline constexpr FixedPower cube_root{
+    {1431655764, -477219117, 265086957, -177611235, 118766867, -177798683, -243108994, -883031911, -1088405058,
+     -784821837},
+    {536870912u, 676414963u, 852229450u, 1073741824u, 1352829926u, 1704458901u, 2147483648u, 2705659852u}};
+
+/// t^0.3333, as the published SSH / SCSH code has it.
+inline constexpr FixedPower published_root{
+    {1431512598, -477195254, 265079000, -177608167, 118765444, -177800906, -243118475, -883057088, -1088438257,
+     -784843915},
+    {536945343u, 676493110u, 852308217u, 1073816253u, 1352892442u, 1704498283u, 2147483648u, 2705597339u}};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_COLOR_FIXED_POWER_HPP
+
+// shortshot/color/srgb.hpp: sRGB's gamma undone, by a table of 1 KB or, where code shall be small, without: the same
+// bits.
+#ifndef SHORTSHOT_COLOR_SRGB_HPP
+#define SHORTSHOT_COLOR_SRGB_HPP
+
+#include <array>
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// n-th root by Newton's iteration, for tables that are built while compiling; never called at run time.
+constexpr double nth_root(double value, int n) noexcept {
+  double root = 1.0;
+  for (int step = 0; step < 100; ++step) {
+    double power = 1.0;
+    for (int k = 1; k < n; ++k) power *= root;
+    const double next = ((n - 1) * root + value / power) / n;
+    if (next == root) break;
+    root = next;
+  }
+  return root;
+}
+
+/// Natural logarithm of 0.05 <= value <= 1 to 1e-6, likewise only while compiling: ln v = 2 artanh((v - 1) / (v + 1)).
+constexpr double log_series(double value) noexcept {
+  const double s = (value - 1.0) / (value + 1.0);
+  double power = s;
+  double sum = 0.0;
+  for (int k = 1; k < 120; k += 2) {
+    sum += power / k;
+    power *= s * s;
+  }
+  return 2.0 * sum;
+}
+
+/// A power of 2.4 with the existing codes' own roundings, because one bit more or less would move some ratios across a
+/// step of their tables: the base is a float, and so is the exponent.
+constexpr float srgb_power(float number) noexcept {
+  const double base = static_cast<double>(number);
+  const double excess = static_cast<double>(2.4f) - 2.4;
+  return static_cast<float>(base * base * nth_root(base * base, 5) * (1.0 + excess * log_series(base)));
+}
+
+constexpr std::array<float, 256> make_srgb_to_linear() noexcept {
+  std::array<float, 256> table{};
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const float c = static_cast<float>(i) / 255.0f;
+    table[i] = c > 0.04045f ? srgb_power((c + 0.055f) / 1.055f) : c / 12.92f;
+  }
+  return table;
+}
+
+inline constexpr std::array<float, 256> srgb_to_linear = make_srgb_to_linear();
+
+inline constexpr FixedPower srgb_root{
+    {1717987336, -515393476, 275016773, -175895406, 155978275, 49167834, 531163086, 686271253, 616103588, 0},
+    {406871906u, 536870735u, 708405228u, 934746364u, 1233405304u, 1627488163u, 2147483648u, 2833621849u}};
+
+/// The same power of a number from 1/16 to 1 without double: the square of its mantissa times srgb_root of it, whose p
+/// is 2.4 - 2. Of all 245 numbers that the gamma has, each has the table's bits.
+[[nodiscard]] inline float small_srgb_power(float base) noexcept {
+  const std::uint32_t bits = math::bits_of(base);
+  const std::uint32_t mantissa = bits << 8 | 0x80000000u;
+  const auto square = static_cast<std::uint32_t>((std::uint64_t{mantissa} * mantissa) >> 32);
+  const std::uint64_t product = std::uint64_t{srgb_root.fixed(bits)} * square;  // in units of 2^-63
+  const auto high = static_cast<std::uint32_t>(product >> 32);
+  const int zeros = __builtin_clz(high);  // 1 to 4
+  const auto digits = static_cast<float>(high << zeros | static_cast<std::uint32_t>(product) >> (32 - zeros));
+  // Times 2^(2 e - zeros - 31), where base is less than 2^e.
+  const int exponent = 2 * (static_cast<int>(bits >> 23) - 126) - zeros - 31;
+  return unfused(digits * math::float_of(static_cast<std::uint32_t>(exponent + 127) << 23));
+}
+
+/// A byte without sRGB's gamma, 0 to 1.
+[[nodiscard]] constexpr float linear_of_srgb(std::uint8_t byte) noexcept {
+  if (!small_code || simd::lanes > 1 || __builtin_is_constant_evaluated()) return srgb_to_linear[byte];
+  const float c = static_cast<float>(byte) / 255.0f;
+  return c > 0.04045f ? small_srgb_power((c + 0.055f) / 1.055f) : c / 12.92f;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_COLOR_SRGB_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// CIELAB color: L in 0..100 (-16 for PclLab's white), a and b clamped to -120..120 as both existing codes do.
+struct Lab {
+  float L, a, b;
+};
+
+/// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
+struct PublishedLab {
+  static constexpr const char* name = "published Lab";  ///< for layout_of()
+  static constexpr bool leaves_gamut = false;           ///< are there sRGB colors beyond -120..120 in a or b?
+  /// Of a CIE ratio, 0 to 1.
+  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept {
+    return t > 0.008856f ? detail::published_root(t) : extend::unfused(7.787f * t) + 16.0f / 116.0f;
+  }
+};
+
+/// CIELAB by the formula of PCL's CSHOT: the cube root above the knee, 7.87 t + 16/116 below.
+struct CshotLab {
+  static constexpr const char* name = "CSHOT Lab";
+  static constexpr bool leaves_gamut = false;
+  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept {
+    return t > 0.008856f ? detail::cube_root(t) : extend::unfused(7.87f * t) + 16.0f / 116.0f;
+  }
+};
+
+/// The same as PCL's compiled code gives it: its table of roots ends before that of 1, where it reads a zero. White,
+/// the only color with such a ratio, becomes L = -16, a = 120, b = -120.
+struct PclLab {
+  static constexpr const char* name = "PCL Lab";
+  static constexpr bool leaves_gamut = true;
+  [[nodiscard, gnu::always_inline]] static float root(float t) noexcept { return t < 1.0f ? CshotLab::root(t) : 0.0f; }
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// A color without sRGB's gamma.
+struct LinearRgb {
+  float of[3];
+};
+
+[[nodiscard]] constexpr LinearRgb to_linear(const Rgb& rgb) noexcept {
+  return {{linear_of_srgb(rgb.r), linear_of_srgb(rgb.g), linear_of_srgb(rgb.b)}};
+}
+
+/// Linear RGB to CIE XYZ, and the white point.
+inline constexpr float xyz_of_rgb[3][3] = {
+    {0.412453f, 0.357580f, 0.180423f}, {0.212671f, 0.715160f, 0.072169f}, {0.019334f, 0.119193f, 0.950227f}};
+inline constexpr float white_xyz[3] = {0.95047f, 1.0f, 1.08883f};
+
+/// A CIE ratio of a color (0: X / Xn, 1: Y / Yn, 2: Z / Zn) in whole steps of 1 / 4000: the position in the published
+/// tables.
+[[nodiscard]] constexpr int ratio_step(int ratio, const LinearRgb& rgb) noexcept {
+  const float(&row)[3] = xyz_of_rgb[ratio];
+  const float sum = unfused(rgb.of[0] * row[0]) + unfused(rgb.of[1] * row[1]) + unfused(rgb.of[2] * row[2]);
+  return static_cast<int>(sum / white_xyz[ratio] * 4000.0f);
+}
+
+/// The last step that a color can have. The ratios grow with each of the three bytes: no color is beyond white.
+inline constexpr int last_ratio_step = 4000;
+inline constexpr LinearRgb white = to_linear({255, 255, 255});
+static_assert(ratio_step(0, white) <= last_ratio_step && ratio_step(1, white) <= last_ratio_step &&
+                  ratio_step(2, white) <= last_ratio_step,
+              "white has the largest ratios");
+
+/// The root that `Rule` takes of a ratio of `step` / 4000.
+template <class Rule>
+[[nodiscard]] inline float root_of_step(int step) noexcept {
+  return Rule::root(static_cast<float>(step) / 4000.0f);
+}
+
+/// CIELAB of the roots of a color's three ratios. Both existing codes clamp a and b to -120..120 (and L to 100), which
+/// is beyond what sRGB colors have but for PclLab's white.
+template <class Rule>
+[[gnu::always_inline]] inline void lab_of_roots(const float (&f)[3], Lab& lab) noexcept {
+  lab = {unfused(116.0f * f[1]) - 16.0f, unfused(500.0f * (f[0] - f[1])), unfused(200.0f * (f[1] - f[2]))};
+  if constexpr (Rule::leaves_gamut) {
+    const auto clamp = [](float& value) { value = value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
+    clamp(lab.a);
+    clamp(lab.b);
+  }
+}
+
+/// to_lab(), written where it belongs: ARM's compilers copy a returned struct of three floats again and again.
+template <class Rule>
+[[gnu::always_inline]] inline void put_lab(const Rgb& rgb, Lab& lab) noexcept {
+  const LinearRgb linear = to_linear(rgb);
+  int steps[3];
+  float f[3];
+  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { steps[k] = ratio_step(k, linear); });
+  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { f[k] = root_of_step<Rule>(steps[k]); });
+  lab_of_roots<Rule>(f, lab);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// sRGB bytes to CIELAB by `Rule` (PublishedLab, CshotLab or PclLab). Source: what the published SSH / SCSH code and
+/// PCL 1.13 compute; within 1e-4 of either in L, a and b. No allocation, reentrant. LabTable (lab_table.hpp) gives the
+/// same bits several times faster, for 16 KB.
+template <class Rule>
+[[nodiscard]] inline Lab to_lab(const Rgb& rgb) noexcept {
+  Lab lab;
+  detail::put_lab<Rule>(rgb, lab);
+  return lab;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::extend {
+inline namespace SHORTSHOT_CODE {
+
+/// Lanes of CIELAB colors.
+struct LabLanes {
+  simd::F32 L, a, b;
+};
+
+[[nodiscard]] SHORTSHOT_INLINE LabLanes in_all_lanes(const Lab& color) noexcept {
+  return {simd::all(color.L), simd::all(color.a), simd::all(color.b)};
+}
+
+/// CSHOT's color distance, 0 to 1 for colors that sRGB has: (|dL| / 100 + (|da| / 120 + |db| / 120) / 2) / 3. NaN for
+/// somebody else's NaN.
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 color_distances(const LabLanes& p, const LabLanes& q) noexcept {
+  using simd::all;
+  const simd::F32 chroma = simd::abs(p.a - q.a) + simd::abs(p.b - q.b);
+  return simd::abs(p.L - q.L) * all(1.0f / 300.0f) + chroma * all(1.0f / 720.0f);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// The same of two colors, cut off at 1.
+[[nodiscard]] inline float color_distance(const Lab& p, const Lab& q) noexcept {
+  const extend::simd::F32 distances = extend::color_distances(extend::in_all_lanes(p), extend::in_all_lanes(q));
+  return extend::simd::largest(extend::simd::min(distances, extend::simd::all(1.0f)));
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+#endif  // SHORTSHOT_COLOR_LAB_HPP
 
 // shortshot/color/packed_lab.hpp: a CIELAB color in 32 bits, for arrays with one color per point.
 #ifndef SHORTSHOT_COLOR_PACKED_LAB_HPP
@@ -9367,7 +9292,6 @@ using namespace extend;
 #undef SHORTSHOT_COLOR_COLOR_SOURCE_HPP
 #undef SHORTSHOT_COLOR_FIXED_POWER_HPP
 #undef SHORTSHOT_COLOR_LAB_HPP
-#undef SHORTSHOT_COLOR_LAB_LANES_HPP
 #undef SHORTSHOT_COLOR_PACKED_LAB_HPP
 #undef SHORTSHOT_COLOR_SRGB_HPP
 #undef SHORTSHOT_DESCRIPTOR_AXIS_HPP
@@ -9622,22 +9546,6 @@ inline std::size_t place_widest(const CloudView& cloud, float leaf, std::size_t 
   }
 #endif
   return place_in_voxels(cloud, leaf, begin, number, d2);
-}
-
-/// The colors [begin, end) of a cloud, one Lab for each of its points, by a table of roots.
-template <class Rule>
-inline void convert_widest(const CloudView& cloud, std::size_t begin, std::size_t end, const float* roots,
-                           Lab* lab) noexcept {
-#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
-  if constexpr (HasTwin<Rule>::value) {
-    if (has_wider_lanes()) {
-      ::shortshot_avx2::detail::convert_range_by<TwinOf<Rule>>(roots, as_twin<::shortshot_avx2::CloudView>(cloud),
-                                                               begin, end, &lab->L);
-      return;
-    }
-  }
-#endif
-  convert_range_by<Rule>(roots, cloud, begin, end, &lab->L);
 }
 
 /// multiply().
@@ -10792,34 +10700,54 @@ template <class Search, class Threads = unsigned>
 #ifndef SHORTSHOT_BATCH_EXTRACTOR_HPP
 #define SHORTSHOT_BATCH_EXTRACTOR_HPP
 
-// shortshot/color/lab_table.hpp: sRGB bytes -> CIELAB by a table of roots, for whole clouds. Hosted only: allocates.
+// shortshot/color/lab_table.hpp: sRGB bytes -> CIELAB by tables, for whole clouds. Hosted only: allocates.
 #ifndef SHORTSHOT_COLOR_LAB_TABLE_HPP
 #define SHORTSHOT_COLOR_LAB_TABLE_HPP
 
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
-/// What to_lab<Rule>() gives, bit for bit: the roots are the same ones, taken once for each of the 4001 steps that a
-/// ratio can have. 16 KB; filling it costs as much as to_lab() of 1300 colors.
+/// to_lab<Rule>() with the same bits and without its powers: what each byte adds to the three CIE ratios of a color is
+/// in a table, and so is the root of each step that a ratio can have. 28 KB. Reentrant once it is filled.
 template <class Rule>
 class LabTable {
  public:
   /// To be called before the first color; does nothing where it was called before. May throw std::bad_alloc.
   void fill() {
     if (!roots_.empty()) return;
-    roots_.reserve(detail::last_ratio_step + 1);
-    for (int step = 0; step <= detail::last_ratio_step; ++step) roots_.push_back(detail::root_of_step<Rule>(step));
+    std::vector<Ratios> shares(3 * std::size_t{bytes});
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t byte = 0; byte < bytes; ++byte) {
+        const float linear = detail::srgb_to_linear[byte];
+        for (int ratio = 0; ratio < 3; ++ratio) {
+          shares[c * bytes + byte][ratio] = extend::unfused(linear * detail::xyz_of_rgb[ratio][c]);
+        }
+      }
+    }
+    std::vector<float> roots;
+    roots.reserve(detail::last_ratio_step + 1);
+    for (int step = 0; step <= detail::last_ratio_step; ++step) roots.push_back(detail::root_of_step<Rule>(step));
+    shares_.swap(shares);
+    roots_.swap(roots);
   }
 
-  [[nodiscard]] const float* roots() const noexcept { return roots_.data(); }
-
   [[nodiscard]] Lab operator()(Rgb color) const noexcept {
+    constexpr Ratios white{detail::white_xyz[0], detail::white_xyz[1], detail::white_xyz[2], 1.0f};
+    const Ratios* const shares = shares_.data();
+    const Ratios sum = (shares[color.r] + shares[bytes + color.g]) + shares[2 * bytes + color.b];
+    const auto steps = __builtin_convertvector(sum / white * 4000.0f, extend::simd::Quad);  // as ratio_step() has them
+    const float* const roots = roots_.data();
+    const float f[3] = {roots[steps[0]], roots[steps[1]], roots[steps[2]]};
     Lab lab;
-    detail::lab_by<Rule>([roots = roots_.data()](int step) { return roots[step]; }, color, lab);
+    detail::lab_of_roots<Rule>(f, lab);
     return lab;
   }
 
  private:
+  using Ratios = extend::simd::FloatQuad;
+  static constexpr std::size_t bytes = 256;
+
+  std::vector<Ratios> shares_;  // of red, of green, of blue
   std::vector<float> roots_;
 };
 
@@ -11116,14 +11044,10 @@ class Extractor {
     if constexpr (D::needs_colors) {
       to_lab_.fill();
       lab_.resize(cloud.size);
-      detail::for_blocks(
-          executor, team, cloud.size, detail::color_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-            if constexpr (std::is_same<Color, Lab>::value) {
-              detail::convert_widest<typename D::LabRule>(cloud, begin, end, to_lab_.roots(), lab_.data());
-            } else {
-              detail::convert_range(cloud, begin, end, to_lab_, lab_.data());
-            }
-          });
+      detail::for_blocks(executor, team, cloud.size, detail::color_block,
+                         [&](std::size_t, std::size_t begin, std::size_t end) {
+                           detail::convert_range(cloud, begin, end, to_lab_, lab_.data());
+                         });
     }
   }
 

@@ -86,7 +86,7 @@ template <class Rule>
 template <class Rule>
 [[gnu::noinline]] Status lab_of_cloud_by(const shortshot::LabTable<Rule>& table, const shortshot::CloudView& view,
                                          shortshot::Lab* lab) {
-  shortshot::detail::convert_widest<Rule>(view, 0, view.size, table.roots(), lab);
+  shortshot::detail::convert_range(view, 0, view.size, table, lab);
   return Status::ok;
 }
 

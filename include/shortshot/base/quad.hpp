@@ -1,4 +1,4 @@
-// shortshot/base/quad.hpp: four integers side by side in memory, for all lane shims.
+// shortshot/base/quad.hpp: four numbers side by side in memory, for all lane shims.
 #ifndef SHORTSHOT_BASE_QUAD_HPP
 #define SHORTSHOT_BASE_QUAD_HPP
 
@@ -11,6 +11,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// One addition where there are lanes.
 using Quad = std::int32_t __attribute__((vector_size(16)));
+using FloatQuad = float __attribute__((vector_size(16)));
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::extend::simd

@@ -206,14 +206,10 @@ class Extractor {
     if constexpr (D::needs_colors) {
       to_lab_.fill();
       lab_.resize(cloud.size);
-      detail::for_blocks(
-          executor, team, cloud.size, detail::color_block, [&](std::size_t, std::size_t begin, std::size_t end) {
-            if constexpr (std::is_same<Color, Lab>::value) {
-              detail::convert_widest<typename D::LabRule>(cloud, begin, end, to_lab_.roots(), lab_.data());
-            } else {
-              detail::convert_range(cloud, begin, end, to_lab_, lab_.data());
-            }
-          });
+      detail::for_blocks(executor, team, cloud.size, detail::color_block,
+                         [&](std::size_t, std::size_t begin, std::size_t end) {
+                           detail::convert_range(cloud, begin, end, to_lab_, lab_.data());
+                         });
     }
   }
 

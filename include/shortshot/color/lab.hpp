@@ -93,15 +93,10 @@ template <class Rule>
   return Rule::root(static_cast<float>(step) / 4000.0f);
 }
 
-/// CIELAB of a color; root(step) is the root of a ratio, computed or from a table of them. Both existing codes clamp a
-/// and b to -120..120 (and L to 100), which is beyond what sRGB colors have but for PclLab's white.
-template <class Rule, class Root>
-inline void lab_by(const Root& root, const Rgb& rgb, Lab& lab) noexcept {
-  const LinearRgb linear = to_linear(rgb);
-  int steps[3];
-  float f[3];
-  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { steps[k] = ratio_step(k, linear); });
-  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { f[k] = root(steps[k]); });
+/// CIELAB of the roots of a color's three ratios. Both existing codes clamp a and b to -120..120 (and L to 100), which
+/// is beyond what sRGB colors have but for PclLab's white.
+template <class Rule>
+[[gnu::always_inline]] inline void lab_of_roots(const float (&f)[3], Lab& lab) noexcept {
   lab = {unfused(116.0f * f[1]) - 16.0f, unfused(500.0f * (f[0] - f[1])), unfused(200.0f * (f[1] - f[2]))};
   if constexpr (Rule::leaves_gamut) {
     const auto clamp = [](float& value) { value = value > 120.0f ? 120.0f : value < -120.0f ? -120.0f : value; };
@@ -113,7 +108,12 @@ inline void lab_by(const Root& root, const Rgb& rgb, Lab& lab) noexcept {
 /// to_lab(), written where it belongs: ARM's compilers copy a returned struct of three floats again and again.
 template <class Rule>
 [[gnu::always_inline]] inline void put_lab(const Rgb& rgb, Lab& lab) noexcept {
-  lab_by<Rule>([](int step) { return root_of_step<Rule>(step); }, rgb, lab);
+  const LinearRgb linear = to_linear(rgb);
+  int steps[3];
+  float f[3];
+  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { steps[k] = ratio_step(k, linear); });
+  each<3>([&](auto k) SHORTSHOT_INLINE_LAMBDA { f[k] = root_of_step<Rule>(steps[k]); });
+  lab_of_roots<Rule>(f, lab);
 }
 
 }  // namespace SHORTSHOT_CODE

@@ -5,7 +5,6 @@
 
 #include "../base/products.hpp"
 #include "../cloud/voxel_lanes.hpp"
-#include "../color/lab_lanes.hpp"
 #include "../descriptor/compact.hpp"
 #include "../frame/normal.hpp"
 #include "../kernel/describe_at.hpp"

@@ -9,8 +9,6 @@
 #include "../base/products.hpp"
 #include "../cloud/cloud.hpp"
 #include "../cloud/voxel_lanes.hpp"
-#include "../color/lab.hpp"
-#include "../color/lab_lanes.hpp"
 #include "../config.hpp"
 #include "../frame/frame.hpp"
 #include "../kernel/chunk.hpp"
@@ -106,22 +104,6 @@ inline std::size_t place_widest(const CloudView& cloud, float leaf, std::size_t 
   }
 #endif
   return place_in_voxels(cloud, leaf, begin, number, d2);
-}
-
-/// The colors [begin, end) of a cloud, one Lab for each of its points, by a table of roots.
-template <class Rule>
-inline void convert_widest(const CloudView& cloud, std::size_t begin, std::size_t end, const float* roots,
-                           Lab* lab) noexcept {
-#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
-  if constexpr (HasTwin<Rule>::value) {
-    if (has_wider_lanes()) {
-      ::shortshot_avx2::detail::convert_range_by<TwinOf<Rule>>(roots, as_twin<::shortshot_avx2::CloudView>(cloud),
-                                                               begin, end, &lab->L);
-      return;
-    }
-  }
-#endif
-  convert_range_by<Rule>(roots, cloud, begin, end, &lab->L);
 }
 
 /// multiply().
