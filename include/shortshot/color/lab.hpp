@@ -107,7 +107,7 @@ template <class Rule>
 
 /// to_lab(), written where it belongs: ARM's compilers copy a returned struct of three floats again and again.
 template <class Rule>
-[[gnu::always_inline]] inline void put_lab(const Rgb& rgb, Lab& lab) noexcept {
+inline void put_lab(const Rgb& rgb, Lab& lab) noexcept {
   const LinearRgb linear = to_linear(rgb);
   int steps[3];
   float f[3];

@@ -76,6 +76,9 @@ inline namespace SHORTSHOT_CODE {
 [[nodiscard]] inline simd::Mask within(const NeighborLanes& v, Radius radius) noexcept {
   return v.d2 < simd::all(radius.squared);
 }
+[[nodiscard]] inline simd::Mask is_elsewhere(const NeighborLanes& v) noexcept {
+  return simd::abs(v.dx) + simd::abs(v.dy) + simd::abs(v.dz) > simd::all(0.0f);
+}
 
 /// Pass 1: how far the members reach, as the squared distance of the farthest one, and how many there are.
 struct Census {
@@ -85,17 +88,22 @@ struct Census {
 
 template <class Neighbors>
 [[nodiscard]] inline Census take_census(const Neighbors& n, Radius radius) noexcept {
-  const simd::F32 zero = simd::all(0.0f);
-  simd::F32 farthest = zero;
+  simd::F32 farthest = simd::all(0.0f);
   simd::I32 members{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
-    const NeighborLanes v = load_neighbors(n, i);
-    simd::Mask member = within(v, radius);
-    if (simd::lanes == 1 || any(zero >= v.d2)) {  // seldom: the key point, and whatever is so close that d2 is lost
-      member = member & (simd::abs(v.dx) + simd::abs(v.dy) + simd::abs(v.dz) > zero);
+    simd::F32 d2;
+    simd::Mask member;
+    if constexpr (simd::lanes == 1) {
+      const NeighborLanes v = load_neighbors(n, i);
+      d2 = v.d2;
+      member = within(v, radius) & is_elsewhere(v);
+      if (!any(member)) continue;
+    } else {
+      d2 = load_d2(n, i);
+      member = d2 < simd::all(radius.squared);
+      if (any(simd::all(0.0f) >= d2)) member = member & is_elsewhere(load_neighbors(n, i));  // seldom
     }
-    if (simd::lanes == 1 && !any(member)) continue;
-    farthest = simd::max(farthest, keep(member, v.d2));
+    farthest = simd::max(farthest, keep(member, d2));
     members = increment(member, members);
   }
   return {simd::largest(farthest), sum(members)};

@@ -106,13 +106,22 @@ template <class Neighbors>
   return load_neighbors<Neighborhood>(n, i);
 }
 
+/// Their squared distances alone.
+template <class Neighbors>
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 load_d2(const Neighbors& n, std::uint32_t i) noexcept {
+  return load_neighbors(n, i).d2;
+}
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 load_d2(const Neighborhood& n, std::uint32_t i) noexcept {
+  return n.size - i >= simd::lanes ? simd::load(n.d2 + i) : load_neighbors(n, i).d2;
+}
+
 /// How many of the neighbors lie within a radius, the key point and its copies included.
 template <class Neighbors>
 [[nodiscard]] inline std::uint32_t count_within(const Neighbors& n, Radius radius) noexcept {
   simd::I32 counts{};
   std::uint32_t i = 0;
   for (; i < n.size; i += simd::lanes) {
-    counts = increment(load_neighbors(n, i).d2 < simd::all(radius.squared), counts);
+    counts = increment(load_d2(n, i) < simd::all(radius.squared), counts);
   }
   return static_cast<std::uint32_t>(sum(counts)) - (i - n.size);  // without what fills up the last register
 }
