@@ -303,6 +303,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 8;
 
+/// Does one instruction add to memory, at any constant distance from where a register points?
+inline constexpr bool adds_to_memory = true;
+
 struct F32 {
   __m256 v;
 };
@@ -311,6 +314,9 @@ struct I32 {
 };
 struct Mask {
   __m256 v;
+};
+struct I16 {
+  std::int16_t v __attribute__((vector_size(32)));
 };
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
@@ -415,6 +421,24 @@ template <class Function>
   return {_mm256_xor_ps(a.v, _mm256_and_ps(sign.v, _mm256_set1_ps(-0.0f)))};
 }
 
+/// Two registers of integers from -2^15 to 2^15 - 1, or of masks (-1 where set), as one of 16 bits each. store() has
+/// them in order, those of a first.
+[[nodiscard]] inline I16 narrow(I32 a, I32 b) noexcept {
+  I16 both{};  // the first halves of a and b, then the second ones
+  both.v = reinterpret_cast<decltype(both.v)>(_mm256_packs_epi32(a.v, b.v));
+  return both;
+}
+[[nodiscard]] inline I16 narrow(Mask a, Mask b) noexcept { return narrow(bits_of({a.v}), bits_of({b.v})); }
+/// (Where b comes from is hidden: a product by a constant becomes shifts and sums, which take longer.)
+[[nodiscard]] inline I16 operator*(I16 a, I16 b) noexcept {
+  __asm__("" : "+x"(b.v));
+  return {a.v * b.v};
+}
+inline void store(std::int16_t* p, I16 a) noexcept {
+  const __m256i in_order = _mm256_permute4x64_epi64(reinterpret_cast<__m256i>(a.v), _MM_SHUFFLE(3, 1, 2, 0));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), in_order);
+}
+
 /// What each lane has in a, b, c and d.
 [[gnu::always_inline]] inline void transpose(I32 a, I32 b, I32 c, I32 d, Quad (&quads)[lanes]) noexcept {
   const __m256i ab[2] = {_mm256_unpacklo_epi32(a.v, b.v), _mm256_unpackhi_epi32(a.v, b.v)};
@@ -507,6 +531,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 4;
 
+/// Does one instruction add to memory, at any constant distance from where a register points?
+inline constexpr bool adds_to_memory = true;
+
 struct F32 {
   __m128 v;
 };
@@ -515,6 +542,9 @@ struct I32 {
 };
 struct Mask {
   __m128 v;
+};
+struct I16 {
+  std::int16_t v __attribute__((vector_size(16)));
 };
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
@@ -618,6 +648,23 @@ template <class Function>
   return {_mm_xor_ps(a.v, _mm_and_ps(sign.v, _mm_set1_ps(-0.0f)))};
 }
 
+/// Two registers of integers from -2^15 to 2^15 - 1, or of masks (-1 where set), as one of 16 bits each. store() has
+/// them in order, those of a first.
+[[nodiscard]] inline I16 narrow(I32 a, I32 b) noexcept {
+  I16 both{};
+  both.v = reinterpret_cast<decltype(both.v)>(_mm_packs_epi32(a.v, b.v));
+  return both;
+}
+[[nodiscard]] inline I16 narrow(Mask a, Mask b) noexcept { return narrow(bits_of({a.v}), bits_of({b.v})); }
+/// (Where b comes from is hidden: a product by a constant becomes shifts and sums, which take longer.)
+[[nodiscard]] inline I16 operator*(I16 a, I16 b) noexcept {
+  __asm__("" : "+x"(b.v));
+  return {a.v * b.v};
+}
+inline void store(std::int16_t* p, I16 a) noexcept {
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), reinterpret_cast<__m128i>(a.v));
+}
+
 /// What each lane has in a, b, c and d.
 [[gnu::always_inline]] inline void transpose(I32 a, I32 b, I32 c, I32 d, Quad (&quads)[lanes]) noexcept {
   const __m128i ab[2] = {_mm_unpacklo_epi32(a.v, b.v), _mm_unpackhi_epi32(a.v, b.v)};
@@ -693,6 +740,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 4;
 
+/// Does one instruction add to memory, at any constant distance from where a register points?
+inline constexpr bool adds_to_memory = false;
+
 struct F32 {
   float32x4_t v;
 };
@@ -701,6 +751,9 @@ struct I32 {
 };
 struct Mask {
   uint32x4_t v;
+};
+struct I16 {
+  std::int16_t v __attribute__((vector_size(16)));
 };
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
@@ -795,6 +848,17 @@ template <class Function>
   return {vreinterpretq_f32_u32(veorq_u32(vreinterpretq_u32_f32(a.v), bit))};
 }
 
+/// Two registers of integers from -2^15 to 2^15 - 1, or of masks (-1 where set), as one of 16 bits each. store() has
+/// them in order, those of a first.
+[[nodiscard]] inline I16 narrow(I32 a, I32 b) noexcept {
+  return {vuzp1q_s16(vreinterpretq_s16_s32(a.v), vreinterpretq_s16_s32(b.v))};
+}
+[[nodiscard]] inline I16 narrow(Mask a, Mask b) noexcept {
+  return narrow(I32{vreinterpretq_s32_u32(a.v)}, I32{vreinterpretq_s32_u32(b.v)});
+}
+[[nodiscard]] inline I16 operator*(I16 a, I16 b) noexcept { return {a.v * b.v}; }
+inline void store(std::int16_t* p, I16 a) noexcept { vst1q_s16(p, a.v); }
+
 /// What each lane has in a, b, c and d.
 [[gnu::always_inline]] inline void transpose(I32 a, I32 b, I32 c, I32 d, Quad (&quads)[lanes]) noexcept {
   const int32x4x2_t ac = vzipq_s32(a.v, c.v);
@@ -879,6 +943,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 1;
 
+/// Does one instruction add to memory, at any constant distance from where a register points?
+inline constexpr bool adds_to_memory = true;
+
 struct F32 {
   float v;
 };
@@ -887,6 +954,9 @@ struct I32 {
 };
 struct Mask {
   bool v;
+};
+struct I16 {
+  std::int16_t v __attribute__((vector_size(4)));
 };
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno; where there is no
@@ -993,6 +1063,18 @@ template <class Function>
 [[nodiscard]] inline I32 drop(Mask m, I32 a) noexcept { return {m.v ? 0 : a.v}; }
 /// -a where `sign` has its sign bit set, else a.
 [[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept { return {bits_of(sign).v < 0 ? -a.v : a.v}; }
+
+/// Two registers of integers from -2^15 to 2^15 - 1, or of masks (-1 where set), as one of 16 bits each. store() has
+/// them in order, those of a first.
+[[nodiscard]] inline I16 narrow(I32 a, I32 b) noexcept {
+  I16 both{};
+  both.v[0] = static_cast<std::int16_t>(a.v);
+  both.v[1] = static_cast<std::int16_t>(b.v);
+  return both;
+}
+[[nodiscard]] inline I16 narrow(Mask a, Mask b) noexcept { return narrow(I32{a.v ? -1 : 0}, I32{b.v ? -1 : 0}); }
+[[nodiscard]] inline I16 operator*(I16 a, I16 b) noexcept { return {a.v * b.v}; }
+inline void store(std::int16_t* p, I16 a) noexcept { std::memcpy(p, &a, sizeof a); }
 
 /// The three floats at base + 3 * index[k], for all lanes.
 [[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
@@ -2039,6 +2121,7 @@ struct Axis {
   Beyond end;
   BelowZero below_zero;
   std::int8_t bits;
+  bool reaches_end = true;  ///< may a position be the very end, the upper border of the last cell?
 
   /// A whole cell, and the whole axis.
   [[nodiscard, gnu::always_inline]] constexpr float one() const noexcept {
@@ -2085,6 +2168,8 @@ struct PublishedCells {
   [[nodiscard, gnu::always_inline]] static constexpr int values(int bins) noexcept { return bins; }
   /// What positions below zero mean on the azimuth axis.
   static constexpr extend::BelowZero azimuth_below_zero = extend::BelowZero::never;
+  /// May a position be the very end of its axis?
+  static constexpr bool reaches_end = true;
   /// Distances on the borders of shells, multiples of R / borders, are those that double precision gives.
   [[nodiscard, gnu::always_inline]] static constexpr int exact_borders(int borders) noexcept { return borders; }
 
@@ -2095,7 +2180,7 @@ struct PublishedCells {
   }
   /// Which neighbors are described: all but the key point and its copies.
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::Mask are_described(extend::simd::F32 d2, Radius radius) noexcept {
-    return (d2 > extend::simd::all(1e-15f)) & (d2 < extend::simd::all(radius.squared));
+    return (d2 < extend::simd::all(radius.squared)) & (d2 > extend::simd::all(1e-15f));
   }
 
   /// Coordinates 1 and 2 of neighbors (0 is the distance over the radius): the angle from +z over pi, and the angle
@@ -2135,6 +2220,7 @@ struct ShotCells {
   static constexpr extend::CellStrides strides{Grid::elevation, 1, Grid::radial* Grid::elevation};
   [[nodiscard, gnu::always_inline]] static constexpr int values(int bins) noexcept { return bins + 1; }
   static constexpr extend::BelowZero azimuth_below_zero = extend::BelowZero::nowhere;
+  static constexpr bool reaches_end = false;
   [[nodiscard, gnu::always_inline]] static constexpr int exact_borders(int) noexcept { return 1; }
 
   /// Five within the radius, the key point and its copies included.
@@ -2147,7 +2233,7 @@ struct ShotCells {
     return false;
   }
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::Mask are_described(extend::simd::F32 d2, Radius radius) noexcept {
-    return (d2 > extend::simd::all(1e-30f)) & (d2 < extend::simd::all(radius.squared));
+    return (d2 < extend::simd::all(radius.squared)) & (d2 > extend::simd::all(1e-30f));
   }
 
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 elevation(const extend::PointLanes& local,
@@ -2197,7 +2283,7 @@ struct HeightCells : PublishedCells {
 
   [[nodiscard, gnu::always_inline]] static constexpr int exact_borders(int) noexcept { return 1; }
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::Mask are_described(extend::simd::F32 d2, Radius radius) noexcept {
-    return (d2 > extend::simd::all(0.0f)) & (d2 < extend::simd::all(radius.squared));
+    return (d2 < extend::simd::all(radius.squared)) & (d2 > extend::simd::all(0.0f));
   }
   /// How far below R / 2 over the plane, over R; cut off at both ends.
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 elevation(const extend::PointLanes& local, extend::simd::F32,
@@ -3824,6 +3910,16 @@ template <class Signal, class... Signals>
 // the sector) it lies in and the nearer neighboring one, its partner, with the share of each (interpolation.hpp).
 // combine() makes a list of votes from the shares of all axes: axis 0 radius, 1 elevation, 2 azimuth, and 3 the
 // histogram's signal where the part has one.
+//
+// A rule that gives each point one vote for its cell and one for its partner along each axis may say so
+// (`votes_for_partners`), and give their weights apart from where they go:
+//
+//     side()               on which side of its cell's middle a position along an axis lies, and the partner's share
+//     weight_of_cell()     and
+//     weight_of_partner()  in units, from the sides (or shares) along all axes
+//     drops_nowhere        does a partner get no vote if the position is nowhere on the axis (BelowZero::nowhere)?
+//
+// The kernel then works out where they go, for two registers of points at once (short_votes.hpp).
 #ifndef SHORTSHOT_DESCRIPTOR_VOTING_HPP
 #define SHORTSHOT_DESCRIPTOR_VOTING_HPP
 
@@ -3834,6 +3930,40 @@ template <class Signal, class... Signals>
 // kept twice, in half units, because it is the distance from the bin's middle in units of half a bin.
 #ifndef SHORTSHOT_DESCRIPTOR_INTERPOLATION_HPP
 #define SHORTSHOT_DESCRIPTOR_INTERPOLATION_HPP
+
+// shortshot/base/simd_shorts.hpp: arithmetic on I16, two registers of small integers in one: half the instructions. The
+// names are those of I32's, so that what is written for integers goes with both. A mask is an I16, too.
+#ifndef SHORTSHOT_BASE_SIMD_SHORTS_HPP
+#define SHORTSHOT_BASE_SIMD_SHORTS_HPP
+
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
+
+/// `value` in all lanes, and as many of them as the first argument has.
+[[nodiscard]] inline I32 like(I32, std::int32_t value) noexcept { return all_int(value); }
+[[nodiscard]] inline I16 like(I16, std::int32_t value) noexcept {
+  I16 all{};
+  all.v += static_cast<std::int16_t>(value);
+  return all;
+}
+
+[[nodiscard]] inline I16 operator+(I16 a, I16 b) noexcept { return {a.v + b.v}; }
+[[nodiscard]] inline I16 operator-(I16 a, I16 b) noexcept { return {a.v - b.v}; }
+[[nodiscard]] inline I16 operator&(I16 a, I16 b) noexcept { return {a.v & b.v}; }
+[[nodiscard]] inline I16 operator|(I16 a, I16 b) noexcept { return {a.v | b.v}; }
+[[nodiscard]] inline I16 operator==(I16 a, I16 b) noexcept { return {a.v == b.v}; }
+[[nodiscard]] inline I16 operator>(I16 a, I16 b) noexcept { return {a.v > b.v}; }
+[[nodiscard]] inline I16 is_negative(I16 a) noexcept { return {a.v < 0}; }
+[[nodiscard]] inline I16 small_min(I16 a, I16 b) noexcept { return {a.v < b.v ? a.v : b.v}; }
+[[nodiscard]] inline I16 small_max(I16 a, I16 b) noexcept { return {a.v > b.v ? a.v : b.v}; }
+[[nodiscard]] inline I16 keep(I16 m, I16 a) noexcept { return {m.v & a.v}; }
+[[nodiscard]] inline I16 drop(I16 m, I16 a) noexcept { return {~m.v & a.v}; }
+[[nodiscard]] inline I16 minus_one_or_one(I16 m) noexcept { return m | like(m, 1); }
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd
+
+#endif  // SHORTSHOT_BASE_SIMD_SHORTS_HPP
 
 namespace shortshot::extend {
 inline namespace SHORTSHOT_TYPES {
@@ -3862,10 +3992,20 @@ struct Votes {
   simd::I32 weight[static_cast<std::size_t>(Count)];
 };
 
-/// The cell of a position. The very end of the axis is the upper border of the last cell.
+// Cells are counted in lanes of 32 bits (I32), or of 16 (I16), two registers at a time: `Int`. `Lower` is a mask of
+// them.
+
+/// Cells on the axis: of those beyond its ends, the last and the first one. (The very end of the axis is the upper
+/// border of the last cell.)
+template <class Int>
+[[nodiscard]] SHORTSHOT_INLINE Int cell_on(const Axis& axis, Int cell) noexcept {
+  if (axis.reaches_end || detail::small_code) cell = simd::small_min(cell, simd::like(cell, axis.cells - 1));
+  return axis.below_zero == BelowZero::never ? cell : simd::small_max(cell, simd::like(cell, 0));
+}
+
+/// The cell of a position.
 [[nodiscard]] SHORTSHOT_INLINE simd::I32 cell_of(const Axis& axis, simd::I32 position) noexcept {
-  const simd::I32 cell = simd::small_min(simd::shift_right(position, axis.bits), simd::all_int(axis.cells - 1));
-  return axis.below_zero == BelowZero::never ? cell : simd::small_max(cell, simd::all_int(0));
+  return cell_on(axis, simd::shift_right(position, axis.bits));
 }
 
 /// Cells, or -1, 0 or 1 of them, times a number of values below 2^22.
@@ -3875,43 +4015,72 @@ struct Votes {
   return factor < 32768 ? low : low + simd::shift_left(simd::small_product(a, simd::all_int(factor >> 15)), 15);
 }
 
-/// From a cell to the next one in a direction (1 or -1), around the ends.
-[[nodiscard]] SHORTSHOT_INLINE simd::I32 next_around(const Axis& axis, simd::I32 cell, simd::I32 direction) noexcept {
-  using simd::all_int;
-  const simd::I32 next = cell + direction;
-  if (!detail::small_code && (axis.cells & (axis.cells - 1)) == 0) return next & all_int(axis.cells - 1);
-  return (next + keep(is_negative(next), all_int(axis.cells))) -
-         keep(next > all_int(axis.cells - 1), all_int(axis.cells));
+[[nodiscard]] SHORTSHOT_INLINE simd::I16 times(simd::I16 a, std::int32_t factor) noexcept {
+  const bool is_shift = (factor & (factor - 1)) == 0;
+  return is_shift ? simd::I16{a.v * simd::like(a, factor).v} : a * simd::like(a, factor);
 }
 
-/// The share of a position in a cell: fraction 0 is the cell's lower border, 2^axis.bits its upper one. `rounds`: the
-/// partner's share is rounded to the nearest unit, not down.
-[[nodiscard]] SHORTSHOT_INLINE Share share(const Axis& axis, simd::I32 cell, simd::I32 fraction, const VoteUnit& unit,
-                                           bool rounds) noexcept {
+/// From a cell to the next one in a direction (1 or -1), around the ends.
+template <class Int>
+[[nodiscard]] SHORTSHOT_INLINE Int next_around(const Axis& axis, Int cell, Int direction) noexcept {
+  const Int next = cell + direction;
+  if (!detail::small_code && (axis.cells & (axis.cells - 1)) == 0) return next & simd::like(next, axis.cells - 1);
+  return (next + keep(is_negative(next), simd::like(next, axis.cells))) -
+         keep(next > simd::like(next, axis.cells - 1), simd::like(next, axis.cells));
+}
+
+/// Is there no cell on that side: first and lower, or last and upper?
+template <class Int, class Lower>
+[[nodiscard]] SHORTSHOT_INLINE auto is_alone(const Axis& axis, Int cell, Lower lower) noexcept {
+  return cell == drop(lower, simd::like(cell, axis.cells - 1));
+}
+
+/// Where in its cell a position lies.
+struct Side {
+  simd::Mask lower;         ///< its partner is the lower neighbor: it lies below the cell's middle, or on it
+  simd::I32 twice_partner;  ///< as in a Share
+};
+
+/// Fraction 0 is the cell's lower border, 2^axis.bits its upper one. `rounds`: the partner's share is rounded to the
+/// nearest unit, not down.
+[[nodiscard]] SHORTSHOT_INLINE Side side(const Axis& axis, simd::I32 fraction, const VoteUnit& unit,
+                                         bool rounds) noexcept {
   using simd::all_int;
   const std::int32_t half = std::int32_t{1} << (axis.bits - 1);
   const simd::I32 side = fraction - all_int(half + 1);
-  const simd::Mask lower = is_negative(side);  // the middle of the cell included
-  const simd::I32 direction = minus_one_or_one(lower);
+  const simd::Mask lower = is_negative(side);
   // The partner's share is the distance from the middle; ~side = -side - 1 is what is left up to it.
   simd::I32 distance = invert(lower, side);
   const int finer_bits = axis.bits - unit.bits - 1;
   if (rounds) distance = distance + all_int((std::int32_t{1} << finer_bits) >> 1);
-  const simd::I32 twice_partner = simd::shift_right(distance, finer_bits);
+  return {lower, simd::shift_right(distance, finer_bits)};
+}
+
+/// The share of a position on a side of a cell.
+[[nodiscard]] SHORTSHOT_INLINE Share share(const Axis& axis, simd::I32 cell, const Side& side) noexcept {
+  using simd::all_int;
+  const simd::I32 direction = minus_one_or_one(side.lower);
   const simd::I32 index = times(cell, axis.stride);
-  if (axis.cells == 1) return {index, all_int(0), twice_partner};
+  if (axis.cells == 1) return {index, all_int(0), side.twice_partner};
   if (axis.end == Beyond::first_cell) {
-    return {index, times(next_around(axis, cell, direction) - cell, axis.stride), twice_partner};
+    return {index, times(next_around(axis, cell, direction) - cell, axis.stride), side.twice_partner};
   }
-  const simd::Mask alone = cell == drop(lower, all_int(axis.cells - 1));  // first and lower, or last and upper
-  return {index, drop(alone, times(direction, axis.stride)), twice_partner};
+  return {index, drop(is_alone(axis, cell, side.lower), times(direction, axis.stride)), side.twice_partner};
+}
+
+/// How far above its cell's lower border a position is. (On the very end of the axis: a whole cell.)
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 fraction_of(const Axis& axis, simd::I32 position, simd::I32 cell) noexcept {
+  if (!detail::small_code && !axis.reaches_end && axis.below_zero != BelowZero::first_cell) {
+    return position & simd::all_int((std::int32_t{1} << axis.bits) - 1);
+  }
+  return position - simd::shift_left(cell, axis.bits);
 }
 
 /// The share of a position in the cell it lies in.
 [[nodiscard]] SHORTSHOT_INLINE Share share_in_cell(const Axis& axis, simd::I32 position, const VoteUnit& unit,
                                                    bool rounds) noexcept {
   const simd::I32 cell = cell_of(axis, position);
-  return share(axis, cell, position - simd::shift_left(cell, axis.bits), unit, rounds);
+  return share(axis, cell, side(axis, fraction_of(axis, position, cell), unit, rounds));
 }
 
 /// Are there positions on this axis without a partner?
@@ -3926,12 +4095,29 @@ template <int Axes>
   return index;
 }
 
-/// The sum of all axes' shares, twice, that partners have.
-template <int Axes>
-[[nodiscard]] SHORTSHOT_INLINE simd::I32 twice_all_partners(const Share (&shares)[4]) noexcept {
+/// The sum of all axes' shares, twice, that partners have. (Of `Shares`, or of sides.)
+template <int Axes, class Shares>
+[[nodiscard]] SHORTSHOT_INLINE simd::I32 twice_all_partners(const Shares (&shares)[4]) noexcept {
   simd::I32 sum = shares[0].twice_partner;
   detail::each<Axes - 1>([&](auto i) { sum = sum + shares[i + 1].twice_partner; });
   return sum;
+}
+
+/// The votes of a rule with one for the cell and one for the partner along each axis. Those to partners that do not
+/// exist get no weight.
+template <class Voting, int Axes>
+[[nodiscard, gnu::always_inline]] inline Votes<Axes + 1> votes_for_cell_and_partners(const Axis (&axes)[4],
+                                                                                     const Share (&shares)[4],
+                                                                                     const VoteUnit& unit) noexcept {
+  Votes<Axes + 1> votes;
+  votes.index[0] = primary_index<Axes>(shares);
+  votes.weight[0] = Voting::template weight_of_cell<Axes>(shares, unit);
+  detail::each<Axes>([&](auto i) {
+    const simd::I32 weight = Voting::weight_of_partner(i, shares, votes.weight[0], unit);
+    votes.index[i + 1] = votes.index[0] + shares[i].step;
+    votes.weight[i + 1] = may_be_alone(axes[i]) ? drop(shares[i].step == simd::all_int(0), weight) : weight;
+  });
+  return votes;
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -3953,40 +4139,48 @@ template <bool FlipRadius>
 struct AdditiveVoting {
   static constexpr const char* name = FlipRadius ? "published voting" : "additive voting";  ///< for layout_of()
   static constexpr bool partners_get_own_share = false;
+  static constexpr bool votes_for_partners = true;
+  static constexpr bool drops_nowhere = false;
   static constexpr int weight_bits = 2;
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
-  [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
-                                                            const extend::VoteUnit& unit) noexcept {
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Side side(const extend::Axis& axis, extend::simd::I32 position,
+                                                          const extend::VoteUnit& unit) noexcept {
     extend::simd::I32 fraction = position & extend::simd::all_int((std::int32_t{1} << axis.bits) - 1);
     if (axis.below_zero != extend::BelowZero::never) {
       const extend::simd::Mask below = is_negative(position);
       fraction = keep(below, position) + drop(below, fraction);
     }
-    return extend::share(axis, extend::cell_of(axis, position), fraction, unit, false);
+    return extend::side(axis, fraction, unit, false);
+  }
+
+  template <int Axes, class Sides>
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 weight_of_cell(const Sides (&sides)[4],
+                                                                         const extend::VoteUnit& unit) noexcept {
+    return extend::simd::all_int(Axes * unit.one) -
+           extend::simd::shift_right(extend::twice_all_partners<Axes>(sides), 1);
+  }
+  template <class Sides>
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 weight_of_partner(int axis, const Sides (&sides)[4],
+                                                                            extend::simd::I32 of_cell,
+                                                                            const extend::VoteUnit& unit) noexcept {
+    // A share 1 - p replaced by p.
+    const extend::simd::I32 one = extend::simd::all_int(unit.one);
+    const extend::simd::I32 weight = (of_cell - one) + sides[axis].twice_partner;
+    return FlipRadius && axis == 3 ? weight + (sides[0].twice_partner - one) : weight;
+  }
+
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
+                                                            const extend::VoteUnit& unit) noexcept {
+    return extend::share(axis, extend::cell_of(axis, position), side(axis, position, unit));
   }
 
   template <int Axes>
   [[nodiscard]] SHORTSHOT_INLINE static extend::Votes<Axes + 1> combine(const extend::Axis (&axes)[4],
                                                                         const extend::Share (&shares)[4],
                                                                         const extend::VoteUnit& unit) noexcept {
-    using extend::simd::all_int;
-    const extend::simd::I32 sum =
-        all_int(Axes * unit.one) - extend::simd::shift_right(extend::twice_all_partners<Axes>(shares), 1);
-    const extend::simd::I32 rest = sum - all_int(unit.one);
-
-    extend::Votes<Axes + 1> votes;
-    votes.index[0] = extend::primary_index<Axes>(shares);
-    votes.weight[0] = sum;
-    detail::each<Axes>([&](auto i) {
-      // A share 1 - p replaced by p.
-      extend::simd::I32 weight = rest + shares[i].twice_partner;
-      if (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all_int(unit.one));
-      votes.index[i + 1] = votes.index[0] + shares[i].step;
-      votes.weight[i + 1] = extend::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
-    });
-    return votes;
+    return extend::votes_for_cell_and_partners<AdditiveVoting, Axes>(axes, shares, unit);
   }
 };
 
@@ -4002,18 +4196,34 @@ template <bool WrapLastBin>
 struct SeparateVoting {
   static constexpr const char* name = WrapLastBin ? "PCL voting" : "SHOT voting";
   static constexpr bool partners_get_own_share = true;
+  static constexpr bool votes_for_partners = !WrapLastBin;
+  static constexpr bool drops_nowhere = true;
   static constexpr int weight_bits = 3;  // half units
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Side side(const extend::Axis& axis, extend::simd::I32 position,
+                                                          const extend::VoteUnit& unit) noexcept {
+    return side_in_cell(axis, position, extend::cell_of(axis, position), unit);
+  }
+
+  template <int Axes, class Sides>
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 weight_of_cell(const Sides (&sides)[4],
+                                                                         const extend::VoteUnit& unit) noexcept {
+    return extend::simd::all_int(2 * Axes * unit.one) - extend::twice_all_partners<Axes>(sides);
+  }
+  template <class Sides>
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 weight_of_partner(int axis, const Sides (&sides)[4],
+                                                                            extend::simd::I32,
+                                                                            const extend::VoteUnit&) noexcept {
+    return sides[axis].twice_partner;
+  }
+
   [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
                                                             const extend::VoteUnit& unit) noexcept {
-    extend::Share share = extend::share_in_cell(axis, position, unit, true);
-    if (axis.below_zero == extend::BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
-      const extend::simd::Mask nowhere = is_negative(position);
-      share.twice_partner = drop(nowhere, share.twice_partner) + keep(nowhere, extend::simd::all_int(2 * unit.one));
-      share.step = drop(nowhere, share.step);
-    }
+    const extend::simd::I32 cell = extend::cell_of(axis, position);
+    extend::Share share = extend::share(axis, cell, side_in_cell(axis, position, cell, unit));
+    if (axis.below_zero == extend::BelowZero::nowhere) share.step = drop(is_negative(position), share.step);
     return share;
   }
 
@@ -4021,21 +4231,25 @@ struct SeparateVoting {
   [[nodiscard]] SHORTSHOT_INLINE static extend::Votes<Axes + 1> combine(const extend::Axis (&axes)[4],
                                                                         const extend::Share (&shares)[4],
                                                                         const extend::VoteUnit& unit) noexcept {
-    using extend::simd::all_int;
-    extend::Votes<Axes + 1> votes;
-    votes.index[0] = extend::primary_index<Axes>(shares);
-    votes.weight[0] = all_int(2 * Axes * unit.one) - extend::twice_all_partners<Axes>(shares);
-    detail::each<Axes>([&](auto i) {
-      const extend::simd::I32 weight = shares[i].twice_partner;
-      extend::simd::I32 index = votes.index[0] + shares[i].step;
-      if (WrapLastBin && i == 3) {
-        const std::int32_t last = axes[3].cells - 1;
-        index = index - keep(shares[3].cell + shares[3].step == all_int(last), all_int(last));
-      }
-      votes.index[i + 1] = index;
-      votes.weight[i + 1] = extend::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
-    });
+    extend::Votes<Axes + 1> votes = extend::votes_for_cell_and_partners<SeparateVoting, Axes>(axes, shares, unit);
+    if constexpr (WrapLastBin && Axes == 4) {
+      const std::int32_t last = axes[3].cells - 1;
+      const extend::simd::Mask wraps = shares[3].cell + shares[3].step == extend::simd::all_int(last);
+      votes.index[4] = votes.index[4] - keep(wraps, extend::simd::all_int(last));
+    }
     return votes;
+  }
+
+ private:
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Side side_in_cell(const extend::Axis& axis, extend::simd::I32 position,
+                                                                  extend::simd::I32 cell,
+                                                                  const extend::VoteUnit& unit) noexcept {
+    extend::Side side = extend::side(axis, extend::fraction_of(axis, position, cell), unit, true);
+    if (axis.below_zero == extend::BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
+      const extend::simd::Mask nowhere = is_negative(position);
+      side.twice_partner = drop(nowhere, side.twice_partner) + keep(nowhere, extend::simd::all_int(2 * unit.one));
+    }
+    return side;
   }
 };
 
@@ -4467,13 +4681,14 @@ struct Part {
   /// there is one.
   static constexpr int axis_count = has_histogram ? 4 : 3;
   template <int Values>
-  static constexpr extend::Axis axes[4] = {{Grid::radial, Values* Cells::template strides<Grid>.radial,
-                                            extend::Beyond::nothing, Scale::below_zero, grid_bits},
-                                           {Grid::elevation, Values* Cells::template strides<Grid>.elevation,
-                                            extend::Beyond::nothing, extend::BelowZero::never, grid_bits},
-                                           {Grid::azimuth, Values* Cells::template strides<Grid>.azimuth,
-                                            extend::Beyond::first_cell, Cells::azimuth_below_zero, grid_bits},
-                                           {values, 1, extend::Beyond::nothing, extend::BelowZero::never, bits}};
+  static constexpr extend::Axis axes[4] = {
+      {Grid::radial, Values* Cells::template strides<Grid>.radial, extend::Beyond::nothing, Scale::below_zero,
+       grid_bits, Cells::reaches_end},
+      {Grid::elevation, Values* Cells::template strides<Grid>.elevation, extend::Beyond::nothing,
+       extend::BelowZero::never, grid_bits, Cells::reaches_end},
+      {Grid::azimuth, Values* Cells::template strides<Grid>.azimuth, extend::Beyond::first_cell,
+       Cells::azimuth_below_zero, grid_bits, Cells::reaches_end},
+      {values, 1, extend::Beyond::nothing, extend::BelowZero::never, bits, Cells::reaches_end}};
 };
 
 /// A spherical grid with the means of some signed signals in every cell, drawn towards 0 where few points are: the sum
@@ -5068,7 +5283,9 @@ template <std::size_t MaxNeighbors, class Index>
 //
 // Neighbors go through in chunks, each chunk in passes over small arrays: locate (local spherical coordinates,
 // to_spherical.hpp), the distances of colors, and then for each part shares among cells (vote_shares.hpp), votes and
-// their addition (accumulate.hpp). Votes are integers, and so are their sums (fixed_point.hpp).
+// their addition (accumulate.hpp). Where there are lanes, the votes of most rules are worked out two registers at a
+// time (short_votes.hpp), in place of vote_shares.hpp: the rule, the arithmetic of cells and the addition are the same
+// code. Votes are integers, and so are their sums (fixed_point.hpp).
 #ifndef SHORTSHOT_KERNEL_DESCRIBE_HPP
 #define SHORTSHOT_KERNEL_DESCRIBE_HPP
 
@@ -5098,6 +5315,9 @@ struct Chunk {
   static_assert(Room >= simd::lanes && Room <= 1024 && Room % simd::lanes == 0,
                 "ChunkSize supports multiples of simd::lanes up to 1024: registers do not reach beyond its end");
   static constexpr std::uint32_t room = Room;
+  /// Passes go through a register at a time, or two where the room is for that.
+  static constexpr std::uint32_t step =
+      Room % (2 * simd::lanes) == 0 && simd::lanes > 1 ? 2 * simd::lanes : simd::lanes;
   static constexpr int rows_of_place = 3;
   static constexpr int signals = Signals::size;
   std::uint32_t size;
@@ -5332,25 +5552,29 @@ template <class Cells, class Borders, class Neighbors, class Signals, class Chun
   const Signals signals = signals_of_place;
   std::conditional_t<small_code, const Frame&, const FrameLanes> axes(frame);
   std::uint32_t size = 0;
-  for (std::uint32_t k = 0; k < stretches.count; ++k) {
-    const std::uint32_t first = stretches.first + k * stretches.stride;
-    const std::uint32_t end = first + stretches.length;
-    for (std::uint32_t i = first; i < end; i += simd::lanes) {
-      const NeighborLanes v = load_neighbors(n, i);
-      const Located<values> now = locate_register<Cells, Borders, values>(v, axes, radius, signals);
-      if (every(now.described)) {
-        append(chunk, size, v.index, now, signals);
-        size += static_cast<std::uint32_t>(simd::lanes);
-      } else if constexpr (simd::lanes > 1) {
-        const simd::Packing packing = simd::packing(now.described);
-        append(chunk, size, v.index, now, signals, packing);
-        size += packing.count;
-      }
+  std::uint32_t i = stretches.first;  // one loop over all stretches: what it keeps in registers is loaded once
+  std::uint32_t end = i + stretches.length;
+  for (std::uint32_t left = stretches.count;;) {
+    const NeighborLanes v = load_neighbors(n, i);
+    const Located<values> now = locate_register<Cells, Borders, values>(v, axes, radius, signals);
+    if (every(now.described)) {
+      append(chunk, size, v.index, now, signals);
+      size += static_cast<std::uint32_t>(simd::lanes);
+    } else if constexpr (simd::lanes > 1) {
+      const simd::Packing packing = simd::packing(now.described);
+      append(chunk, size, v.index, now, signals, packing);
+      size += packing.count;
+    }
+    i += simd::lanes;
+    if (i >= end) {
+      if (simd::lanes == 1 || --left == 0) break;  // where there is one lane, there is one stretch
+      i = end + (stretches.stride - stretches.length);
+      end += stretches.stride;
     }
   }
   chunk.size = size;
   // What passes read beyond the end must be points that exist, and numbers.
-  for (; size % simd::lanes != 0; ++size) {
+  for (; size % Chunk::step != 0; ++size) {
     chunk.index[size] = n.index[stretches.first];
     for (int k = 0; k < Chunk::rows_of_place + Chunk::signals; ++k)
       chunk.rows[size + std::size_t{Chunk::room} * static_cast<std::size_t>(k)] = 0.0f;
@@ -5379,6 +5603,17 @@ template <class Voting, class Cells, class Scale>
 [[nodiscard]] SHORTSHOT_INLINE Share share_along_axis(const Axis& axis, int k, simd::F32 coordinate,
                                                       const VoteUnit& unit) noexcept {
   return Voting::split(axis, Cells::template position<Scale>(axis, k, coordinate), unit);
+}
+
+/// What axis `K` of a part (3: its histogram's) goes by, of one register of a chunk's neighbors from `i` on.
+template <class Part, int K, class Chunk>
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 coordinate_at(const Chunk& chunk, std::uint32_t i) noexcept {
+  if constexpr (K == 3) {
+    using Signal = typename Part::Signal;
+    return place_in_histogram<Signal>(simd::load(chunk.row(Chunk::template row_of<Signal>, i)));
+  } else {
+    return simd::load(chunk.row(K, i));
+  }
 }
 
 /// One register of a chunk's neighbors in the frame's spherical coordinates.
@@ -5427,8 +5662,7 @@ template <class Voting, class Part, class Chunk>
                                                                       const VoteUnit& unit) noexcept {
   constexpr const Axis(&axes)[4] = Part::template axes<Part::values>;
   if constexpr (Part::has_histogram) {
-    using Signal = typename Part::Signal;
-    const simd::F32 signal = place_in_histogram<Signal>(simd::load(chunk.row(Chunk::template row_of<Signal>, i)));
+    const simd::F32 signal = coordinate_at<Part, 3>(chunk, i);
     shares.axes[3] = share_along_axis<Voting, typename Part::Cells, typename Part::Scale>(axes[3], 3, signal, unit);
   }
   return Voting::template combine<Part::axis_count>(axes, shares.axes, unit);
@@ -5457,10 +5691,16 @@ constexpr bool is_shared(int k) noexcept {
   return integer;
 }
 
-inline void add_bits(float* value, std::int32_t weight) noexcept {
-  const std::int32_t sum = integer_at(value) + weight;
-  std::memcpy(__builtin_assume_aligned(value, alignof(float)), &sum, sizeof sum);
+[[gnu::always_inline]] inline void set_bits(float* value, std::int32_t integer) noexcept {
+  std::memcpy(__builtin_assume_aligned(value, alignof(float)), &integer, sizeof integer);
 }
+
+/// What is at a place, and a weight more. (Modulo 2^32: a place for votes that go nowhere takes any number of them.)
+[[nodiscard, gnu::always_inline]] inline std::int32_t sum_at(const float* value, std::int32_t weight) noexcept {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(integer_at(value)) + static_cast<std::uint32_t>(weight));
+}
+
+inline void add_bits(float* value, std::int32_t weight) noexcept { set_bits(value, sum_at(value, weight)); }
 
 /// One vote of the only lane.
 inline void add_vote(float* values, simd::I32 index, simd::I32 weight) noexcept {
@@ -5471,28 +5711,42 @@ inline void add_vote(float* values, simd::I32 index, simd::I32 weight) noexcept 
   add_bits(values + place, units);
 }
 
-/// The votes of a chunk for the part that begins at value `Offset` of the descriptor, lane-wise: `count` arrays of
-/// positions in the part, and as many of weights. Votes go through memory: taken out of registers lane by lane they
-/// would cost twice as much.
-template <class Voting, class PartType, int Offset, std::uint32_t ChunkSize>
-struct ChunkVotes {
+/// The votes of a chunk for one part, lane-wise: `count` arrays of indices, and as many of weights. Votes go through
+/// memory: taken out of registers lane by lane they would cost twice as much.
+template <class Voting, class PartType, class Index, std::uint32_t ChunkSize>
+struct VoteRows {
   using Part = PartType;
-  static constexpr int offset = Offset;
   static constexpr int count = votes_of<Voting, Part>;
-  std::int32_t index[count * ChunkSize];
+  Index index[count * ChunkSize];
   std::int32_t weight[count * ChunkSize];
 
-  ChunkVotes() noexcept {}  // leaves the arrays as they are
+  VoteRows() noexcept {}  // leaves the arrays as they are
 
-  /// The votes of one register of neighbors, from `i` on. Weights that the `First` part on the grid has as well are
-  /// kept there only.
+  /// Votes of one register of neighbors, from `i` on. Weights that the `First` part on the grid has as well are kept
+  /// there only.
+  template <bool First>
+  SHORTSHOT_INLINE void keep_weights(std::uint32_t i, const simd::I32* weights) noexcept {
+    unroll<count>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      if constexpr (First || !is_shared<Voting>(k)) simd::store(weight + i + k * ChunkSize, weights[k]);
+    });
+  }
+};
+
+/// Those for the part that begins at value `Offset` of the descriptor; indices are positions in the part.
+template <class Voting, class Part, int Offset, std::uint32_t ChunkSize>
+struct ChunkVotes : VoteRows<Voting, Part, std::int32_t, ChunkSize> {
+  static constexpr bool goes_to_distinct_places = false;
+  using ChunkVotes::VoteRows::count;
+  ChunkVotes() noexcept {}  // else `ChunkVotes()` is zeros
+
+  /// Where index 0 of vote `k` is.
+  static constexpr int origin(int) noexcept { return Offset; }
+
   template <bool First, class Chunk>
   SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, PointShares&& shares, const VoteUnit& unit) noexcept {
     const Votes<count> votes = votes_at<Voting, Part>(chunk, i, shares, unit);
-    unroll<count>([&](auto k) {
-      simd::store(index + i + k * ChunkSize, votes.index[k]);
-      if constexpr (First || !is_shared<Voting>(k)) simd::store(weight + i + k * ChunkSize, votes.weight[k]);
-    });
+    unroll<count>([&](auto k) { simd::store(this->index + i + k * ChunkSize, votes.index[k]); });
+    this->template keep_weights<First>(i, votes.weight);
   }
 };
 
@@ -5504,41 +5758,80 @@ inline constexpr int votes_of_most = [] {
   return most;
 }();
 
+/// Where vote `K` of neighbor `i` of a chunk goes.
+template <int K, std::uint32_t ChunkSize, class Votes>
+[[nodiscard]] SHORTSHOT_INLINE float* place_of_vote(float* out, const Votes& votes, std::uint32_t i) noexcept {
+  return out + Votes::origin(K) + std::ptrdiff_t{votes.index[K * ChunkSize + i]};
+}
+
 /// Vote `K` of neighbor `i` of a chunk, of the weight that `source` has.
 template <int K, std::uint32_t ChunkSize, class Votes, class Source>
 SHORTSHOT_INLINE void add_vote(float* out, const Votes& votes, const Source& source, std::uint32_t i) noexcept {
-  constexpr std::uint32_t first = K * ChunkSize;
   if constexpr (K < Votes::count) {
-    add_bits(out + Votes::offset + votes.index[first + i], source.weight[first + i]);
+    add_bits(place_of_vote<K, ChunkSize>(out, votes, i), source.weight[K * ChunkSize + i]);
   }
 }
 
-/// All votes of neighbor `i` of a chunk, for all parts on one grid.
-template <class Voting, std::uint32_t ChunkSize, class First, class... Others>
+/// Votes of one neighbor for a part, to distinct places: their sums are loaded together, and no load waits for a store.
+template <int Count>
+struct DistinctVotes {
+  float* places[static_cast<std::size_t>(Count)];
+  std::int32_t sums[static_cast<std::size_t>(Count)];
+
+  template <class Voting, std::uint32_t ChunkSize, bool OneGrid, class First, class Votes>
+  SHORTSHOT_INLINE void load(std::uint32_t i, float* out, const First& first, const Votes& votes) noexcept {
+    unroll<Count>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      places[k] = place_of_vote<k, ChunkSize>(out, votes, i);
+      if constexpr (OneGrid && is_shared<Voting>(k)) {
+        sums[k] = sum_at(places[k], first.weight[k * ChunkSize + i]);
+      } else {
+        sums[k] = sum_at(places[k], votes.weight[k * ChunkSize + i]);
+      }
+    });
+  }
+  SHORTSHOT_INLINE void store() const noexcept {
+    unroll<Count>([&](auto k) SHORTSHOT_INLINE_LAMBDA { set_bits(places[k], sums[k]); });
+  }
+};
+
+/// All votes of neighbor `i` of a chunk, for several parts; on one grid, or each on its own.
+template <class Voting, std::uint32_t ChunkSize, bool OneGrid, class First, class... Others>
 SHORTSHOT_INLINE void add_votes(std::uint32_t i, float* out, const First& first, const Others&... others) noexcept {
-  unroll<votes_of_most<First, Others...>>([&](auto k) {
-    add_vote<k, ChunkSize>(out, first, first, i);
-    if constexpr (is_shared<Voting>(k)) {
-      (add_vote<k, ChunkSize>(out, others, first, i), ...);
-    } else {
-      (add_vote<k, ChunkSize>(out, others, others, i), ...);
-    }
-  });
+  if constexpr (First::goes_to_distinct_places && !simd::adds_to_memory) {
+    const auto add = [&](auto of_first, auto... of_others) SHORTSHOT_INLINE_LAMBDA {
+      of_first.template load<Voting, ChunkSize, OneGrid>(i, out, first, first);
+      (of_others.template load<Voting, ChunkSize, OneGrid>(i, out, first, others), ...);
+      of_first.store();
+      (of_others.store(), ...);
+    };
+    add(DistinctVotes<First::count>(), DistinctVotes<Others::count>()...);
+  } else {
+    unroll<votes_of_most<First, Others...>>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      add_vote<k, ChunkSize>(out, first, first, i);
+      if constexpr (OneGrid && is_shared<Voting>(k)) {
+        (add_vote<k, ChunkSize>(out, others, first, i), ...);
+      } else {
+        (add_vote<k, ChunkSize>(out, others, others, i), ...);
+      }
+    });
+  }
 }
 
-/// The votes of a chunk for all parts on one grid. Neighbors from its four stretches are taken in turn.
-template <class Voting, std::uint32_t ChunkSize, class... Votes>
-inline void scatter(std::uint32_t size, float* out, const Votes&... votes) noexcept {
+/// The votes of a chunk for several parts. Neighbors from the four stretches of a full chunk are taken in turn.
+template <class Voting, std::uint32_t ChunkSize, bool OneGrid, class... Votes>
+SHORTSHOT_INLINE void scatter(std::uint32_t size, float* out, const Votes&... votes) noexcept {
   constexpr std::uint32_t quarter = ChunkSize / 4;  // a stretch of a full chunk; any other split would do
-  static_assert(stretches_of_full_chunk == 4, "what is written out below");
+  static_assert(stretches_of_full_chunk == 4 && ChunkSize % 4 == 0, "what is written out below");
+  const auto add = [&](std::uint32_t i)
+                       SHORTSHOT_INLINE_LAMBDA { add_votes<Voting, ChunkSize, OneGrid>(i, out, votes...); };
   std::uint32_t i = 0;
-  if (size >= 3 * quarter) {
-    for (; i < size - 3 * quarter; ++i) {
-      unroll<4>([&](auto k) { add_votes<Voting, ChunkSize>(i + k * quarter, out, votes...); });
+  if (size > 3 * quarter) {
+    for (; i < size - 3 * quarter; ++i) unroll<4>([&](auto k) SHORTSHOT_INLINE_LAMBDA { add(i + k * quarter); });
+    for (; i < quarter; ++i) {
+      for (std::uint32_t k = i; k < 3 * quarter; k += quarter) add(k);
     }
-  }
-  for (; i < quarter; ++i) {
-    for (std::uint32_t k = i; k < size; k += quarter) add_votes<Voting, ChunkSize>(k, out, votes...);
+  } else {
+    for (; i < size; ++i) add(i);
   }
 }
 
@@ -5563,7 +5856,7 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& fi
       (others.template cast<false>(chunk, i, widened<std::decay_t<Others>::Part::values / values>(shares), unit), ...);
     }
   }
-  scatter<Voting, Chunk::room>(size, out, first, others...);
+  scatter<Voting, Chunk::room, true>(size, out, first, others...);
 }
 
 /// The votes of neighbor `i` of a chunk for one part, added at once: there is one lane only.
@@ -5637,8 +5930,7 @@ inline void accumulate_all(Descriptor<Voting, Parts...> descriptor, std::index_s
     accumulate<Voting>(chunk, unit, out, ChunkVotes<Voting, Parts, D::offset(I), Chunk::room>()...);
   } else {
     const auto accumulate_part = [&](auto part, float* values) {
-      using Part = decltype(part);
-      accumulate<Voting>(chunk, unit, values, ChunkVotes<Voting, Part, 0, Chunk::room>());
+      accumulate<Voting>(chunk, unit, values, ChunkVotes<Voting, decltype(part), 0, Chunk::room>());
     };
     (accumulate_part(Parts{}, out + D::offset(I)), ...);
   }
@@ -5739,16 +6031,16 @@ inline void to_floats(float* values, int size) noexcept {
   for (int i = 0; i < size; ++i) values[i] = static_cast<float>(integer_at(values + i));
 }
 
-/// Integers (or, of parts that are finished, floats) to floats of L2 norm 1. Squares are added up in eight places,
-/// whatever the number of lanes: the same order, and so the same bits, from all.
+/// Integers (or, of parts that are finished, floats) to floats of L2 norm 1, in place or not. Squares are added up in
+/// eight places, whatever the number of lanes: the same order, and so the same bits, from all.
 template <bool AreIntegers>
-[[nodiscard]] inline Status normalize(float* values, int size) noexcept {
+[[nodiscard]] inline Status normalize(const float* from, float* values, int size) noexcept {
   constexpr int lanes = static_cast<int>(simd::lanes);
   const int whole = small_code && lanes == 1 ? 0 : size / 8 * 8;
   simd::F32 squares[8 / lanes] = {};
   for (int i = 0; i < whole; i += 8) {
     each<8 / lanes>([&](auto k) {
-      simd::F32 value = simd::load(values + i + k * lanes);
+      simd::F32 value = simd::load(from + i + k * lanes);
       if constexpr (AreIntegers) {
         value = to_float(bits_of(value));
         simd::store(values + i + k * lanes, value);
@@ -5759,7 +6051,7 @@ template <bool AreIntegers>
   float s[8];
   each<8 / lanes>([&](auto k) { simd::store(s + k * lanes, squares[k]); });
   for (int i = whole; i < size; ++i) {
-    if constexpr (AreIntegers) to_floats(values + i, 1);
+    if constexpr (AreIntegers) values[i] = static_cast<float>(integer_at(from + i));
     s[i % 8] += unfused(values[i] * values[i]);
   }
 
@@ -5780,18 +6072,19 @@ inline void finish_part(float* values, [[maybe_unused]] float* weights) noexcept
   if constexpr (!std::is_same<typename Part::Finish, PlainSums>::value) Part::Finish::apply(values, Part::size);
 }
 
-/// All parts'; `weights` are the sums of votes of parts with means.
+/// All parts'; `sums` are the values themselves, unless all are plain; `weights`, the sums of votes of parts with
+/// means.
 template <class Voting, class... Parts, std::size_t... I>
-[[nodiscard]] inline Status finish(Descriptor<Voting, Parts...>, std::index_sequence<I...>, float* values,
-                                   [[maybe_unused]] float* weights) noexcept {
+[[nodiscard]] inline Status finish(Descriptor<Voting, Parts...>, std::index_sequence<I...>, const float* sums,
+                                   float* values, [[maybe_unused]] float* weights) noexcept {
   using D = Descriptor<Voting, Parts...>;
   if constexpr (D::is_plain) {
-    return normalize<true>(values, D::size);
+    return normalize<true>(sums, values, D::size);
   } else {
     to_floats(values, D::size);
     to_floats(weights, D::weight_cells);
     (finish_part<Parts>(values + D::offset(I), weights + D::weight_offset(I)), ...);
-    return normalize<false>(values, D::size);
+    return normalize<false>(values, values, D::size);
   }
 }
 
@@ -5873,6 +6166,15 @@ template <class LabRule, class Neighbors, class First, class... Others>
 }  // namespace shortshot::detail
 
 #endif  // SHORTSHOT_KERNEL_MEAN_COLOR_HPP
+
+// shortshot/kernel/short_votes.hpp: votes with indices of 16 bits, where there are lanes: two registers of neighbors at
+// a time. What a rule of voting for a cell and its partners (voting.hpp) says about weights stays in 32 bits, and so do
+// the sums; the arithmetic of cells is the same (interpolation.hpp), in half the instructions.
+//
+// A vote to a partner that does not exist is not sorted out: it has a place of its own behind the end of all sums,
+// which nobody looks at. Indices count from that end: those of values are below 0, and to drop one is to make it 0.
+#ifndef SHORTSHOT_KERNEL_SHORT_VOTES_HPP
+#define SHORTSHOT_KERNEL_SHORT_VOTES_HPP
 
 // shortshot/kernel/soft_cells.hpp: soft votes where there is one lane: each to its cell. For speed every part has code
 // of its own; where code shall be small all of them share one loop over tables. The same bits.
@@ -6295,6 +6597,185 @@ template <class Voting, class... Parts, std::size_t... I, class Chunk>
 
 #endif  // SHORTSHOT_KERNEL_SOFT_CELLS_HPP
 
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Two registers' shares along one axis: their cells, the way to their partners, and who has none.
+struct ShortShare {
+  simd::I16 cell;
+  simd::I16 step;   ///< in values; see step_left_out()
+  simd::I16 alone;  ///< a mask
+};
+
+/// Between one cell and the next there is nothing but a stride: where an instruction that adds has room for a constant,
+/// a partner's index is that of the lower one, and the stride goes into the constant.
+[[nodiscard]] constexpr int step_left_out(const Axis& axis) noexcept {
+  return simd::adds_to_memory && axis.end == Beyond::nothing ? axis.stride : 0;
+}
+
+/// `cell`: of positions as they are, also beyond the ends.
+template <class Voting>
+[[nodiscard]] SHORTSHOT_INLINE ShortShare short_share(const Axis& axis, simd::I16 cell, simd::I16 lower) noexcept {
+  using simd::like;
+  const simd::I16 on_axis = cell_on(axis, cell);
+  if (axis.cells == 1) return {on_axis, like(cell, 0), like(cell, -1)};
+  if (axis.end == Beyond::nothing) {
+    const simd::I16 step = like(cell, axis.stride - step_left_out(axis)) - keep(lower, like(cell, 2 * axis.stride));
+    return {on_axis, step, is_alone(axis, on_axis, lower)};
+  }
+  const bool drops_nowhere = Voting::drops_nowhere && axis.below_zero == BelowZero::nowhere;
+  const simd::I16 next = next_around(axis, on_axis, minus_one_or_one(lower));
+  return {on_axis, times(next - on_axis, axis.stride), drops_nowhere ? is_negative(cell) : like(cell, 0)};
+}
+
+/// Votes for a part that begins `-Begin` values before the end of the descriptor.
+template <class Voting, class Part, int Begin, std::uint32_t ChunkSize>
+struct ShortVotes : VoteRows<Voting, Part, std::int16_t, ChunkSize> {
+  static constexpr bool goes_to_distinct_places = true;  // but for votes to partners that do not exist
+  static constexpr int axis_count = Part::axis_count;
+  static constexpr const Axis (&axes)[4] = Part::template axes<Part::values>;
+  using ShortVotes::VoteRows::count;
+
+  ShortVotes() noexcept {}  // else `ShortVotes()` is zeros
+
+  /// Where index 0 of vote `k` is: at the end of all sums, or behind it.
+  static constexpr int origin(int k) noexcept { return k == 0 ? 0 : step_left_out(axes[k - 1]); }
+
+  /// The votes of two registers of neighbors, from `i` on. (Weights of the first one are stored before the second one
+  /// is looked at: there are not registers enough for both.)
+  template <bool First, class Chunk>
+  SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, const VoteUnit& unit) noexcept {
+    simd::I32 positions[4];
+    Side first[4];
+    unroll<axis_count>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      positions[k] = position_at<k>(chunk, i);
+      first[k] = Voting::side(axes[k], positions[k], unit);
+    });
+    cast_weights<First>(i, first, unit);
+    Side second[4];
+    ShortShare shares[4];
+    unroll<axis_count>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      const simd::I32 position = position_at<k>(chunk, i + simd::lanes);
+      second[k] = Voting::side(axes[k], position, unit);
+      const simd::I16 cells = narrow(shift_right(positions[k], axes[k].bits), shift_right(position, axes[k].bits));
+      shares[k] = short_share<Voting>(axes[k], cells, narrow(first[k].lower, second[k].lower));
+    });
+    cast_weights<First>(i + simd::lanes, second, unit);
+    cast_indices(i, shares);
+  }
+
+ private:
+  template <int K, class Chunk>
+  [[nodiscard]] SHORTSHOT_INLINE static simd::I32 position_at(const Chunk& chunk, std::uint32_t i) noexcept {
+    return Part::Cells::template position<typename Part::Scale>(axes[K], K, coordinate_at<Part, K>(chunk, i));
+  }
+
+  template <bool First>
+  SHORTSHOT_INLINE void cast_weights(std::uint32_t i, const Side (&sides)[4], const VoteUnit& unit) noexcept {
+    simd::I32 weights[static_cast<std::size_t>(count)];
+    weights[0] = Voting::template weight_of_cell<axis_count>(sides, unit);
+    unroll<axis_count>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      weights[k + 1] = Voting::weight_of_partner(k, sides, weights[0], unit);
+    });
+    this->template keep_weights<First>(i, weights);
+  }
+
+  SHORTSHOT_INLINE void cast_indices(std::uint32_t i, const ShortShare (&shares)[4]) noexcept {
+    constexpr Axis radius = Part::template axes<1>[0], elevation = Part::template axes<1>[1],
+                   azimuth = Part::template axes<1>[2];
+    const simd::I16 cell = (times(shares[0].cell, radius.stride) + times(shares[1].cell, elevation.stride)) +
+                           times(shares[2].cell, azimuth.stride);
+    simd::I16 primary = times(cell, Part::values) + simd::like(cell, Begin);
+    if constexpr (axis_count == 4) primary = primary + shares[3].cell;
+    simd::store(this->index + i, primary);
+    unroll<axis_count>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      simd::store(this->index + i + (k + 1) * ChunkSize, drop(shares[k].alone, primary + shares[k].step));
+    });
+  }
+};
+
+/// Does a rule vote for a cell and its partners, and say so?
+template <class Voting, class = void>
+struct VotesForPartners : std::false_type {};
+template <class Voting>
+struct VotesForPartners<Voting, std::void_t<decltype(Voting::votes_for_partners)>>
+    : std::bool_constant<Voting::votes_for_partners> {};
+
+/// Room behind the end of all sums, for votes that go nowhere and for registers.
+template <class... Parts>
+inline constexpr int room_behind_sums = [] {
+  int most = static_cast<int>(simd::lanes);
+  const auto see = [&](const Axis(&axes)[4]) {
+    for (const Axis& axis : axes) most = axis.stride >= most ? axis.stride + 1 : most;
+  };
+  (see(Parts::template axes<Parts::values>), ...);
+  return most;
+}();
+
+/// Values of the sums of a descriptor with short votes; 0 if it has none: one lane, small code, other rules, a chunk of
+/// less than two registers, more than 16 bits of indices.
+template <std::uint32_t ChunkSize, class Voting, class... Parts>
+constexpr int short_sums(Descriptor<Voting, Parts...>) noexcept {
+  using D = Descriptor<Voting, Parts...>;
+  constexpr bool may_be = simd::lanes > 1 && !small_code && D::is_plain && D::weight_cells == 0 && !is_soft<D>();
+  if constexpr (may_be && VotesForPartners<Voting>::value && ChunkSize % (2 * simd::lanes) == 0) {
+    constexpr int values = D::size + room_behind_sums<Parts...>;
+    if (values <= 32768) return values;
+  }
+  return 0;
+}
+
+/// Sums of no vote; of the room behind them, the places where votes go.
+template <class Voting, class... Parts>
+SHORTSHOT_INLINE void clear_sums(Descriptor<Voting, Parts...>, float* sums) noexcept {
+  using D = Descriptor<Voting, Parts...>;
+  constexpr int lanes = static_cast<int>(simd::lanes);
+  for (int k = 0; k < D::size; k += lanes) simd::store(sums + k, simd::all(0.0f));
+  const auto clear_behind = [&](auto part) SHORTSHOT_INLINE_LAMBDA {
+    using Part = decltype(part);
+    unroll<4>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      sums[D::size + step_left_out(Part::template axes<Part::values>[k])] = 0.0f;
+    });
+  };
+  sums[D::size] = 0.0f;
+  (clear_behind(Parts{}), ...);
+}
+
+/// One chunk into the sums of all parts: what they have in common is worked out once.
+template <class Voting, class... Parts, class Chunk, class First, class... Others>
+SHORTSHOT_INLINE void accumulate_short_votes(Descriptor<Voting, Parts...>, const Chunk& chunk, VoteUnit unit,
+                                             float* end, First&& first, Others&&... others) noexcept {
+  constexpr bool one_grid = HaveOneGrid<Parts...>::value;
+  const std::uint32_t size = chunk.size;
+  for (std::uint32_t i = 0; i < size; i += 2 * simd::lanes) {
+    first.template cast<true>(chunk, i, unit);
+    (others.template cast<!one_grid>(chunk, i, unit), ...);
+  }
+  scatter<Voting, Chunk::room, one_grid>(size, end, first, others...);
+}
+
+template <class Voting, class... Parts, std::size_t... I, class Chunk>
+[[gnu::noinline]] inline void accumulate_all_short_votes(Descriptor<Voting, Parts...> descriptor,
+                                                         std::index_sequence<I...>, const Chunk& chunk,
+                                                         const VoteUnit& unit, float* sums) noexcept {
+  using D = Descriptor<Voting, Parts...>;
+  accumulate_short_votes(descriptor, chunk, unit, sums + D::size,
+                         ShortVotes<Voting, Parts, D::offset(I) - D::size, Chunk::room>()...);
+}
+
+/// Bytes of a chunk, its votes and their sums.
+template <std::uint32_t ChunkSize, class Voting, class... Parts>
+constexpr std::size_t short_scratch_bytes(Descriptor<Voting, Parts...> descriptor) noexcept {
+  using D = Descriptor<Voting, Parts...>;
+  return sizeof(Chunk<typename D::Signals, ChunkSize>) + (sizeof(ShortVotes<Voting, Parts, 0, ChunkSize>) + ...) +
+         sizeof(float) * static_cast<std::size_t>(short_sums<ChunkSize>(descriptor));
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_SHORT_VOTES_HPP
+
 // shortshot/kernel/soft_votes.hpp: multilinear votes for parts of compact descriptors, a register of neighbors at a
 // time.
 //
@@ -6485,8 +6966,8 @@ inline void accumulate_each(Descriptor<Voting, Parts...>, std::index_sequence<I.
   (accumulate_one(Parts{}, weights + D::weight_offset(I), out + D::offset(I)), ...);
 }
 
-/// describe() for what was checked before; `out` is all zeros. (Not inlined: its chunk need not be on the stack while
-/// the frame is estimated.)
+/// describe() for what was checked before; `out` is all zeros, unless votes have sums of their own. (Not inlined: its
+/// chunk need not be on the stack while the frame is estimated.)
 template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
 [[nodiscard, gnu::noinline]] inline Status describe_checked(const Neighbors& n, const Sources& sources,
                                                             const Frame& frame, Radius radius, float* out) noexcept {
@@ -6501,6 +6982,9 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
   constexpr bool has_quads = is_soft<D>() && simd::lanes > 1;
   [[maybe_unused]] Quad quads[has_quads ? simd::lanes * static_cast<std::size_t>(quads_of<D>()) : 1];
   if constexpr (has_quads) std::memset(quads, 0, sizeof quads);
+  constexpr bool has_short_votes = short_sums<ChunkSize>(D{}) > 0;
+  [[maybe_unused]] float own_sums[static_cast<std::size_t>(short_sums<ChunkSize>(D{}) + 1)];
+  if constexpr (has_short_votes) clear_sums(D{}, own_sums);
   for (std::uint32_t i = 0; i * ChunkSize < n.size; ++i) {
     locate<typename D::Cells, typename D::ShellBorders>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
                                                         of_place, chunk);
@@ -6509,6 +6993,8 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
       add_soft_votes(D{}, parts, chunk, static_cast<float>(unit.one), quads);
     } else if constexpr (is_soft<D>()) {
       add_soft_points(D{}, parts, chunk, static_cast<float>(unit.one), weights, out);
+    } else if constexpr (has_short_votes) {
+      accumulate_all_short_votes(D{}, parts, chunk, unit, own_sums);
     } else if constexpr (D::is_plain) {
       accumulate_all(D{}, parts, chunk, unit, out);
     } else {
@@ -6516,7 +7002,7 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
     }
   }
   if constexpr (has_quads) gather_all_quads(D{}, parts, quads, weights, out);
-  return finish(D{}, parts, out, weights);
+  return finish(D{}, parts, has_short_votes ? own_sums : out, out, weights);
 }
 
 /// The first status that is not ok of those sources that D reads.
@@ -6535,13 +7021,16 @@ inline namespace SHORTSHOT_CODE {
 
 /// Neighbors that go through the kernel together: of that length are all arrays that it has on the stack. A template
 /// parameter of describe() and describe_at(), any multiple of simd::lanes: it changes speed and memory, no result.
-inline constexpr std::uint32_t default_chunk_size = extend::simd::lanes == 1 ? 16 : 64;
+inline constexpr std::uint32_t default_chunk_size = extend::simd::lanes == 1 ? 16 : 128;
 
-/// Bytes of those arrays, and of the quads in which compact descriptors add up their votes.
+/// Bytes of those arrays, and of the sums (of compact descriptors: quads) that the kernel keeps for itself where there
+/// are lanes.
 template <class D, std::uint32_t ChunkSize = default_chunk_size>
 inline constexpr std::size_t chunk_bytes = [] {
   if constexpr (detail::is_soft<D>()) {
     return detail::soft_scratch_bytes<D, ChunkSize>();
+  } else if constexpr (detail::short_sums<ChunkSize>(D{}) > 0) {
+    return detail::short_scratch_bytes<ChunkSize>(D{});
   } else {
     return detail::scratch_bytes<ChunkSize>(D{});
   }
@@ -6571,7 +7060,8 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors
       has_all,
       "describe() needs a source for each of D's signals: RgbColors or LabColors for ColorDistance, CloudNormals "
       "for NormalCosine, CloudIntensities for Intensity, and your own for your own");
-  std::memset(out, 0, D::size_bytes);
+  constexpr bool has_own_sums = detail::short_sums<ChunkSize>(D{}) > 0;
+  if (!has_own_sums) std::memset(out, 0, D::size_bytes);
   Status status = validate(radius);
   if (status == Status::ok && D::needs_frame) status = validate(frame);
   if constexpr (has_all) {
@@ -6580,6 +7070,7 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors
     const Frame& used = D::needs_frame ? frame : detail::any_frame;
     if (status == Status::ok) status = detail::describe_checked<D, ChunkSize>(n, sources, used, radius, out);
   }
+  if (has_own_sums && status != Status::ok) std::memset(out, 0, D::size_bytes);
   return status;
 }
 
@@ -9283,8 +9774,8 @@ using namespace extend;
 
 #define SHORTSHOT_FOR_AVX2
 
-// shortshot/dispatch/forget_kernel.hpp: the include guards of hot_kernel.hpp and all that it includes, so that it can
-// be read once more. No include guard.
+// shortshot/dispatch/forget_kernel.hpp: the include guards of hot_kernel.hpp and all that it includes, so that it can be
+// read once more. No include guard.
 
 #undef SHORTSHOT_BASE_FIXED_POINT_HPP
 #undef SHORTSHOT_BASE_MATH_HPP
@@ -9295,6 +9786,7 @@ using namespace extend;
 #undef SHORTSHOT_BASE_SIMD_HPP
 #undef SHORTSHOT_BASE_SIMD_NEON_HPP
 #undef SHORTSHOT_BASE_SIMD_SCALAR_HPP
+#undef SHORTSHOT_BASE_SIMD_SHORTS_HPP
 #undef SHORTSHOT_BASE_SIMD_SSE2_HPP
 #undef SHORTSHOT_BASE_SYMMETRIC_EIGEN_HPP
 #undef SHORTSHOT_BASE_UNFUSED_HPP
@@ -9336,6 +9828,7 @@ using namespace extend;
 #undef SHORTSHOT_KERNEL_FINISH_HPP
 #undef SHORTSHOT_KERNEL_MEAN_COLOR_HPP
 #undef SHORTSHOT_KERNEL_MEASURE_SIGNALS_HPP
+#undef SHORTSHOT_KERNEL_SHORT_VOTES_HPP
 #undef SHORTSHOT_KERNEL_SOFT_CELLS_HPP
 #undef SHORTSHOT_KERNEL_SOFT_LAYOUT_HPP
 #undef SHORTSHOT_KERNEL_SOFT_SHARES_HPP

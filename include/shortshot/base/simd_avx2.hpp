@@ -16,6 +16,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 8;
 
+/// Does one instruction add to memory, at any constant distance from where a register points?
+inline constexpr bool adds_to_memory = true;
+
 struct F32 {
   __m256 v;
 };
@@ -24,6 +27,9 @@ struct I32 {
 };
 struct Mask {
   __m256 v;
+};
+struct I16 {
+  std::int16_t v __attribute__((vector_size(32)));
 };
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
@@ -126,6 +132,24 @@ template <class Function>
 /// -a where `sign` has its sign bit set, else a.
 [[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept {
   return {_mm256_xor_ps(a.v, _mm256_and_ps(sign.v, _mm256_set1_ps(-0.0f)))};
+}
+
+/// Two registers of integers from -2^15 to 2^15 - 1, or of masks (-1 where set), as one of 16 bits each. store() has
+/// them in order, those of a first.
+[[nodiscard]] inline I16 narrow(I32 a, I32 b) noexcept {
+  I16 both{};  // the first halves of a and b, then the second ones
+  both.v = reinterpret_cast<decltype(both.v)>(_mm256_packs_epi32(a.v, b.v));
+  return both;
+}
+[[nodiscard]] inline I16 narrow(Mask a, Mask b) noexcept { return narrow(bits_of({a.v}), bits_of({b.v})); }
+/// (Where b comes from is hidden: a product by a constant becomes shifts and sums, which take longer.)
+[[nodiscard]] inline I16 operator*(I16 a, I16 b) noexcept {
+  __asm__("" : "+x"(b.v));
+  return {a.v * b.v};
+}
+inline void store(std::int16_t* p, I16 a) noexcept {
+  const __m256i in_order = _mm256_permute4x64_epi64(reinterpret_cast<__m256i>(a.v), _MM_SHUFFLE(3, 1, 2, 0));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), in_order);
 }
 
 /// What each lane has in a, b, c and d.

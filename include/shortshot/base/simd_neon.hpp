@@ -17,6 +17,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 4;
 
+/// Does one instruction add to memory, at any constant distance from where a register points?
+inline constexpr bool adds_to_memory = false;
+
 struct F32 {
   float32x4_t v;
 };
@@ -25,6 +28,9 @@ struct I32 {
 };
 struct Mask {
   uint32x4_t v;
+};
+struct I16 {
+  std::int16_t v __attribute__((vector_size(16)));
 };
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
@@ -118,6 +124,17 @@ template <class Function>
   const uint32x4_t bit = vandq_u32(vreinterpretq_u32_f32(sign.v), vdupq_n_u32(0x80000000u));
   return {vreinterpretq_f32_u32(veorq_u32(vreinterpretq_u32_f32(a.v), bit))};
 }
+
+/// Two registers of integers from -2^15 to 2^15 - 1, or of masks (-1 where set), as one of 16 bits each. store() has
+/// them in order, those of a first.
+[[nodiscard]] inline I16 narrow(I32 a, I32 b) noexcept {
+  return {vuzp1q_s16(vreinterpretq_s16_s32(a.v), vreinterpretq_s16_s32(b.v))};
+}
+[[nodiscard]] inline I16 narrow(Mask a, Mask b) noexcept {
+  return narrow(I32{vreinterpretq_s32_u32(a.v)}, I32{vreinterpretq_s32_u32(b.v)});
+}
+[[nodiscard]] inline I16 operator*(I16 a, I16 b) noexcept { return {a.v * b.v}; }
+inline void store(std::int16_t* p, I16 a) noexcept { vst1q_s16(p, a.v); }
 
 /// What each lane has in a, b, c and d.
 [[gnu::always_inline]] inline void transpose(I32 a, I32 b, I32 c, I32 d, Quad (&quads)[lanes]) noexcept {

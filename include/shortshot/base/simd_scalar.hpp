@@ -15,6 +15,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 1;
 
+/// Does one instruction add to memory, at any constant distance from where a register points?
+inline constexpr bool adds_to_memory = true;
+
 struct F32 {
   float v;
 };
@@ -23,6 +26,9 @@ struct I32 {
 };
 struct Mask {
   bool v;
+};
+struct I16 {
+  std::int16_t v __attribute__((vector_size(4)));
 };
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno; where there is no
@@ -129,6 +135,18 @@ template <class Function>
 [[nodiscard]] inline I32 drop(Mask m, I32 a) noexcept { return {m.v ? 0 : a.v}; }
 /// -a where `sign` has its sign bit set, else a.
 [[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept { return {bits_of(sign).v < 0 ? -a.v : a.v}; }
+
+/// Two registers of integers from -2^15 to 2^15 - 1, or of masks (-1 where set), as one of 16 bits each. store() has
+/// them in order, those of a first.
+[[nodiscard]] inline I16 narrow(I32 a, I32 b) noexcept {
+  I16 both{};
+  both.v[0] = static_cast<std::int16_t>(a.v);
+  both.v[1] = static_cast<std::int16_t>(b.v);
+  return both;
+}
+[[nodiscard]] inline I16 narrow(Mask a, Mask b) noexcept { return narrow(I32{a.v ? -1 : 0}, I32{b.v ? -1 : 0}); }
+[[nodiscard]] inline I16 operator*(I16 a, I16 b) noexcept { return {a.v * b.v}; }
+inline void store(std::int16_t* p, I16 a) noexcept { std::memcpy(p, &a, sizeof a); }
 
 /// The three floats at base + 3 * index[k], for all lanes.
 [[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,

@@ -17,6 +17,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 4;
 
+/// Does one instruction add to memory, at any constant distance from where a register points?
+inline constexpr bool adds_to_memory = true;
+
 struct F32 {
   __m128 v;
 };
@@ -25,6 +28,9 @@ struct I32 {
 };
 struct Mask {
   __m128 v;
+};
+struct I16 {
+  std::int16_t v __attribute__((vector_size(16)));
 };
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno.
@@ -126,6 +132,23 @@ template <class Function>
 /// -a where `sign` has its sign bit set, else a.
 [[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept {
   return {_mm_xor_ps(a.v, _mm_and_ps(sign.v, _mm_set1_ps(-0.0f)))};
+}
+
+/// Two registers of integers from -2^15 to 2^15 - 1, or of masks (-1 where set), as one of 16 bits each. store() has
+/// them in order, those of a first.
+[[nodiscard]] inline I16 narrow(I32 a, I32 b) noexcept {
+  I16 both{};
+  both.v = reinterpret_cast<decltype(both.v)>(_mm_packs_epi32(a.v, b.v));
+  return both;
+}
+[[nodiscard]] inline I16 narrow(Mask a, Mask b) noexcept { return narrow(bits_of({a.v}), bits_of({b.v})); }
+/// (Where b comes from is hidden: a product by a constant becomes shifts and sums, which take longer.)
+[[nodiscard]] inline I16 operator*(I16 a, I16 b) noexcept {
+  __asm__("" : "+x"(b.v));
+  return {a.v * b.v};
+}
+inline void store(std::int16_t* p, I16 a) noexcept {
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), reinterpret_cast<__m128i>(a.v));
 }
 
 /// What each lane has in a, b, c and d.

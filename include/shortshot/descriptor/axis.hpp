@@ -27,6 +27,7 @@ struct Axis {
   Beyond end;
   BelowZero below_zero;
   std::int8_t bits;
+  bool reaches_end = true;  ///< may a position be the very end, the upper border of the last cell?
 
   /// A whole cell, and the whole axis.
   [[nodiscard, gnu::always_inline]] constexpr float one() const noexcept {

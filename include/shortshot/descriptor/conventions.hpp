@@ -48,6 +48,8 @@ struct PublishedCells {
   [[nodiscard, gnu::always_inline]] static constexpr int values(int bins) noexcept { return bins; }
   /// What positions below zero mean on the azimuth axis.
   static constexpr extend::BelowZero azimuth_below_zero = extend::BelowZero::never;
+  /// May a position be the very end of its axis?
+  static constexpr bool reaches_end = true;
   /// Distances on the borders of shells, multiples of R / borders, are those that double precision gives.
   [[nodiscard, gnu::always_inline]] static constexpr int exact_borders(int borders) noexcept { return borders; }
 
@@ -58,7 +60,7 @@ struct PublishedCells {
   }
   /// Which neighbors are described: all but the key point and its copies.
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::Mask are_described(extend::simd::F32 d2, Radius radius) noexcept {
-    return (d2 > extend::simd::all(1e-15f)) & (d2 < extend::simd::all(radius.squared));
+    return (d2 < extend::simd::all(radius.squared)) & (d2 > extend::simd::all(1e-15f));
   }
 
   /// Coordinates 1 and 2 of neighbors (0 is the distance over the radius): the angle from +z over pi, and the angle
@@ -98,6 +100,7 @@ struct ShotCells {
   static constexpr extend::CellStrides strides{Grid::elevation, 1, Grid::radial* Grid::elevation};
   [[nodiscard, gnu::always_inline]] static constexpr int values(int bins) noexcept { return bins + 1; }
   static constexpr extend::BelowZero azimuth_below_zero = extend::BelowZero::nowhere;
+  static constexpr bool reaches_end = false;
   [[nodiscard, gnu::always_inline]] static constexpr int exact_borders(int) noexcept { return 1; }
 
   /// Five within the radius, the key point and its copies included.
@@ -110,7 +113,7 @@ struct ShotCells {
     return false;
   }
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::Mask are_described(extend::simd::F32 d2, Radius radius) noexcept {
-    return (d2 > extend::simd::all(1e-30f)) & (d2 < extend::simd::all(radius.squared));
+    return (d2 < extend::simd::all(radius.squared)) & (d2 > extend::simd::all(1e-30f));
   }
 
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 elevation(const extend::PointLanes& local,
@@ -160,7 +163,7 @@ struct HeightCells : PublishedCells {
 
   [[nodiscard, gnu::always_inline]] static constexpr int exact_borders(int) noexcept { return 1; }
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::Mask are_described(extend::simd::F32 d2, Radius radius) noexcept {
-    return (d2 > extend::simd::all(0.0f)) & (d2 < extend::simd::all(radius.squared));
+    return (d2 < extend::simd::all(radius.squared)) & (d2 > extend::simd::all(0.0f));
   }
   /// How far below R / 2 over the plane, over R; cut off at both ends.
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 elevation(const extend::PointLanes& local, extend::simd::F32,

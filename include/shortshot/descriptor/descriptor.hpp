@@ -74,13 +74,14 @@ struct Part {
   /// there is one.
   static constexpr int axis_count = has_histogram ? 4 : 3;
   template <int Values>
-  static constexpr extend::Axis axes[4] = {{Grid::radial, Values* Cells::template strides<Grid>.radial,
-                                            extend::Beyond::nothing, Scale::below_zero, grid_bits},
-                                           {Grid::elevation, Values* Cells::template strides<Grid>.elevation,
-                                            extend::Beyond::nothing, extend::BelowZero::never, grid_bits},
-                                           {Grid::azimuth, Values* Cells::template strides<Grid>.azimuth,
-                                            extend::Beyond::first_cell, Cells::azimuth_below_zero, grid_bits},
-                                           {values, 1, extend::Beyond::nothing, extend::BelowZero::never, bits}};
+  static constexpr extend::Axis axes[4] = {
+      {Grid::radial, Values* Cells::template strides<Grid>.radial, extend::Beyond::nothing, Scale::below_zero,
+       grid_bits, Cells::reaches_end},
+      {Grid::elevation, Values* Cells::template strides<Grid>.elevation, extend::Beyond::nothing,
+       extend::BelowZero::never, grid_bits, Cells::reaches_end},
+      {Grid::azimuth, Values* Cells::template strides<Grid>.azimuth, extend::Beyond::first_cell,
+       Cells::azimuth_below_zero, grid_bits, Cells::reaches_end},
+      {values, 1, extend::Beyond::nothing, extend::BelowZero::never, bits, Cells::reaches_end}};
 };
 
 /// A spherical grid with the means of some signed signals in every cell, drawn towards 0 where few points are: the sum

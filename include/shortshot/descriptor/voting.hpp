@@ -5,6 +5,16 @@
 // the sector) it lies in and the nearer neighboring one, its partner, with the share of each (interpolation.hpp).
 // combine() makes a list of votes from the shares of all axes: axis 0 radius, 1 elevation, 2 azimuth, and 3 the
 // histogram's signal where the part has one.
+//
+// A rule that gives each point one vote for its cell and one for its partner along each axis may say so
+// (`votes_for_partners`), and give their weights apart from where they go:
+//
+//     side()               on which side of its cell's middle a position along an axis lies, and the partner's share
+//     weight_of_cell()     and
+//     weight_of_partner()  in units, from the sides (or shares) along all axes
+//     drops_nowhere        does a partner get no vote if the position is nowhere on the axis (BelowZero::nowhere)?
+//
+// The kernel then works out where they go, for two registers of points at once (short_votes.hpp).
 #ifndef SHORTSHOT_DESCRIPTOR_VOTING_HPP
 #define SHORTSHOT_DESCRIPTOR_VOTING_HPP
 
@@ -30,40 +40,48 @@ template <bool FlipRadius>
 struct AdditiveVoting {
   static constexpr const char* name = FlipRadius ? "published voting" : "additive voting";  ///< for layout_of()
   static constexpr bool partners_get_own_share = false;
+  static constexpr bool votes_for_partners = true;
+  static constexpr bool drops_nowhere = false;
   static constexpr int weight_bits = 2;
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
-  [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
-                                                            const extend::VoteUnit& unit) noexcept {
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Side side(const extend::Axis& axis, extend::simd::I32 position,
+                                                          const extend::VoteUnit& unit) noexcept {
     extend::simd::I32 fraction = position & extend::simd::all_int((std::int32_t{1} << axis.bits) - 1);
     if (axis.below_zero != extend::BelowZero::never) {
       const extend::simd::Mask below = is_negative(position);
       fraction = keep(below, position) + drop(below, fraction);
     }
-    return extend::share(axis, extend::cell_of(axis, position), fraction, unit, false);
+    return extend::side(axis, fraction, unit, false);
+  }
+
+  template <int Axes, class Sides>
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 weight_of_cell(const Sides (&sides)[4],
+                                                                         const extend::VoteUnit& unit) noexcept {
+    return extend::simd::all_int(Axes * unit.one) -
+           extend::simd::shift_right(extend::twice_all_partners<Axes>(sides), 1);
+  }
+  template <class Sides>
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 weight_of_partner(int axis, const Sides (&sides)[4],
+                                                                            extend::simd::I32 of_cell,
+                                                                            const extend::VoteUnit& unit) noexcept {
+    // A share 1 - p replaced by p.
+    const extend::simd::I32 one = extend::simd::all_int(unit.one);
+    const extend::simd::I32 weight = (of_cell - one) + sides[axis].twice_partner;
+    return FlipRadius && axis == 3 ? weight + (sides[0].twice_partner - one) : weight;
+  }
+
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
+                                                            const extend::VoteUnit& unit) noexcept {
+    return extend::share(axis, extend::cell_of(axis, position), side(axis, position, unit));
   }
 
   template <int Axes>
   [[nodiscard]] SHORTSHOT_INLINE static extend::Votes<Axes + 1> combine(const extend::Axis (&axes)[4],
                                                                         const extend::Share (&shares)[4],
                                                                         const extend::VoteUnit& unit) noexcept {
-    using extend::simd::all_int;
-    const extend::simd::I32 sum =
-        all_int(Axes * unit.one) - extend::simd::shift_right(extend::twice_all_partners<Axes>(shares), 1);
-    const extend::simd::I32 rest = sum - all_int(unit.one);
-
-    extend::Votes<Axes + 1> votes;
-    votes.index[0] = extend::primary_index<Axes>(shares);
-    votes.weight[0] = sum;
-    detail::each<Axes>([&](auto i) {
-      // A share 1 - p replaced by p.
-      extend::simd::I32 weight = rest + shares[i].twice_partner;
-      if (FlipRadius && i == 3) weight = weight + (shares[0].twice_partner - all_int(unit.one));
-      votes.index[i + 1] = votes.index[0] + shares[i].step;
-      votes.weight[i + 1] = extend::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
-    });
-    return votes;
+    return extend::votes_for_cell_and_partners<AdditiveVoting, Axes>(axes, shares, unit);
   }
 };
 
@@ -79,18 +97,34 @@ template <bool WrapLastBin>
 struct SeparateVoting {
   static constexpr const char* name = WrapLastBin ? "PCL voting" : "SHOT voting";
   static constexpr bool partners_get_own_share = true;
+  static constexpr bool votes_for_partners = !WrapLastBin;
+  static constexpr bool drops_nowhere = true;
   static constexpr int weight_bits = 3;  // half units
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Side side(const extend::Axis& axis, extend::simd::I32 position,
+                                                          const extend::VoteUnit& unit) noexcept {
+    return side_in_cell(axis, position, extend::cell_of(axis, position), unit);
+  }
+
+  template <int Axes, class Sides>
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 weight_of_cell(const Sides (&sides)[4],
+                                                                         const extend::VoteUnit& unit) noexcept {
+    return extend::simd::all_int(2 * Axes * unit.one) - extend::twice_all_partners<Axes>(sides);
+  }
+  template <class Sides>
+  [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 weight_of_partner(int axis, const Sides (&sides)[4],
+                                                                            extend::simd::I32,
+                                                                            const extend::VoteUnit&) noexcept {
+    return sides[axis].twice_partner;
+  }
+
   [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
                                                             const extend::VoteUnit& unit) noexcept {
-    extend::Share share = extend::share_in_cell(axis, position, unit, true);
-    if (axis.below_zero == extend::BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
-      const extend::simd::Mask nowhere = is_negative(position);
-      share.twice_partner = drop(nowhere, share.twice_partner) + keep(nowhere, extend::simd::all_int(2 * unit.one));
-      share.step = drop(nowhere, share.step);
-    }
+    const extend::simd::I32 cell = extend::cell_of(axis, position);
+    extend::Share share = extend::share(axis, cell, side_in_cell(axis, position, cell, unit));
+    if (axis.below_zero == extend::BelowZero::nowhere) share.step = drop(is_negative(position), share.step);
     return share;
   }
 
@@ -98,21 +132,25 @@ struct SeparateVoting {
   [[nodiscard]] SHORTSHOT_INLINE static extend::Votes<Axes + 1> combine(const extend::Axis (&axes)[4],
                                                                         const extend::Share (&shares)[4],
                                                                         const extend::VoteUnit& unit) noexcept {
-    using extend::simd::all_int;
-    extend::Votes<Axes + 1> votes;
-    votes.index[0] = extend::primary_index<Axes>(shares);
-    votes.weight[0] = all_int(2 * Axes * unit.one) - extend::twice_all_partners<Axes>(shares);
-    detail::each<Axes>([&](auto i) {
-      const extend::simd::I32 weight = shares[i].twice_partner;
-      extend::simd::I32 index = votes.index[0] + shares[i].step;
-      if (WrapLastBin && i == 3) {
-        const std::int32_t last = axes[3].cells - 1;
-        index = index - keep(shares[3].cell + shares[3].step == all_int(last), all_int(last));
-      }
-      votes.index[i + 1] = index;
-      votes.weight[i + 1] = extend::may_be_alone(axes[i]) ? drop(shares[i].step == all_int(0), weight) : weight;
-    });
+    extend::Votes<Axes + 1> votes = extend::votes_for_cell_and_partners<SeparateVoting, Axes>(axes, shares, unit);
+    if constexpr (WrapLastBin && Axes == 4) {
+      const std::int32_t last = axes[3].cells - 1;
+      const extend::simd::Mask wraps = shares[3].cell + shares[3].step == extend::simd::all_int(last);
+      votes.index[4] = votes.index[4] - keep(wraps, extend::simd::all_int(last));
+    }
     return votes;
+  }
+
+ private:
+  [[nodiscard]] SHORTSHOT_INLINE static extend::Side side_in_cell(const extend::Axis& axis, extend::simd::I32 position,
+                                                                  extend::simd::I32 cell,
+                                                                  const extend::VoteUnit& unit) noexcept {
+    extend::Side side = extend::side(axis, extend::fraction_of(axis, position, cell), unit, true);
+    if (axis.below_zero == extend::BelowZero::nowhere) {  // nothing for the cell, and a partner that gets nothing
+      const extend::simd::Mask nowhere = is_negative(position);
+      side.twice_partner = drop(nowhere, side.twice_partner) + keep(nowhere, extend::simd::all_int(2 * unit.one));
+    }
+    return side;
   }
 };
 

@@ -1,5 +1,5 @@
-// shortshot/dispatch/forget_kernel.hpp: the include guards of hot_kernel.hpp and all that it includes, so that it can
-// be read once more. No include guard.
+// shortshot/dispatch/forget_kernel.hpp: the include guards of hot_kernel.hpp and all that it includes, so that it can be
+// read once more. No include guard.
 
 #undef SHORTSHOT_BASE_FIXED_POINT_HPP
 #undef SHORTSHOT_BASE_MATH_HPP
@@ -10,6 +10,7 @@
 #undef SHORTSHOT_BASE_SIMD_HPP
 #undef SHORTSHOT_BASE_SIMD_NEON_HPP
 #undef SHORTSHOT_BASE_SIMD_SCALAR_HPP
+#undef SHORTSHOT_BASE_SIMD_SHORTS_HPP
 #undef SHORTSHOT_BASE_SIMD_SSE2_HPP
 #undef SHORTSHOT_BASE_SYMMETRIC_EIGEN_HPP
 #undef SHORTSHOT_BASE_UNFUSED_HPP
@@ -51,6 +52,7 @@
 #undef SHORTSHOT_KERNEL_FINISH_HPP
 #undef SHORTSHOT_KERNEL_MEAN_COLOR_HPP
 #undef SHORTSHOT_KERNEL_MEASURE_SIGNALS_HPP
+#undef SHORTSHOT_KERNEL_SHORT_VOTES_HPP
 #undef SHORTSHOT_KERNEL_SOFT_CELLS_HPP
 #undef SHORTSHOT_KERNEL_SOFT_LAYOUT_HPP
 #undef SHORTSHOT_KERNEL_SOFT_SHARES_HPP

@@ -38,10 +38,16 @@ constexpr bool is_shared(int k) noexcept {
   return integer;
 }
 
-inline void add_bits(float* value, std::int32_t weight) noexcept {
-  const std::int32_t sum = integer_at(value) + weight;
-  std::memcpy(__builtin_assume_aligned(value, alignof(float)), &sum, sizeof sum);
+[[gnu::always_inline]] inline void set_bits(float* value, std::int32_t integer) noexcept {
+  std::memcpy(__builtin_assume_aligned(value, alignof(float)), &integer, sizeof integer);
 }
+
+/// What is at a place, and a weight more. (Modulo 2^32: a place for votes that go nowhere takes any number of them.)
+[[nodiscard, gnu::always_inline]] inline std::int32_t sum_at(const float* value, std::int32_t weight) noexcept {
+  return static_cast<std::int32_t>(static_cast<std::uint32_t>(integer_at(value)) + static_cast<std::uint32_t>(weight));
+}
+
+inline void add_bits(float* value, std::int32_t weight) noexcept { set_bits(value, sum_at(value, weight)); }
 
 /// One vote of the only lane.
 inline void add_vote(float* values, simd::I32 index, simd::I32 weight) noexcept {
@@ -52,28 +58,42 @@ inline void add_vote(float* values, simd::I32 index, simd::I32 weight) noexcept 
   add_bits(values + place, units);
 }
 
-/// The votes of a chunk for the part that begins at value `Offset` of the descriptor, lane-wise: `count` arrays of
-/// positions in the part, and as many of weights. Votes go through memory: taken out of registers lane by lane they
-/// would cost twice as much.
-template <class Voting, class PartType, int Offset, std::uint32_t ChunkSize>
-struct ChunkVotes {
+/// The votes of a chunk for one part, lane-wise: `count` arrays of indices, and as many of weights. Votes go through
+/// memory: taken out of registers lane by lane they would cost twice as much.
+template <class Voting, class PartType, class Index, std::uint32_t ChunkSize>
+struct VoteRows {
   using Part = PartType;
-  static constexpr int offset = Offset;
   static constexpr int count = votes_of<Voting, Part>;
-  std::int32_t index[count * ChunkSize];
+  Index index[count * ChunkSize];
   std::int32_t weight[count * ChunkSize];
 
-  ChunkVotes() noexcept {}  // leaves the arrays as they are
+  VoteRows() noexcept {}  // leaves the arrays as they are
 
-  /// The votes of one register of neighbors, from `i` on. Weights that the `First` part on the grid has as well are
-  /// kept there only.
+  /// Votes of one register of neighbors, from `i` on. Weights that the `First` part on the grid has as well are kept
+  /// there only.
+  template <bool First>
+  SHORTSHOT_INLINE void keep_weights(std::uint32_t i, const simd::I32* weights) noexcept {
+    unroll<count>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      if constexpr (First || !is_shared<Voting>(k)) simd::store(weight + i + k * ChunkSize, weights[k]);
+    });
+  }
+};
+
+/// Those for the part that begins at value `Offset` of the descriptor; indices are positions in the part.
+template <class Voting, class Part, int Offset, std::uint32_t ChunkSize>
+struct ChunkVotes : VoteRows<Voting, Part, std::int32_t, ChunkSize> {
+  static constexpr bool goes_to_distinct_places = false;
+  using ChunkVotes::VoteRows::count;
+  ChunkVotes() noexcept {}  // else `ChunkVotes()` is zeros
+
+  /// Where index 0 of vote `k` is.
+  static constexpr int origin(int) noexcept { return Offset; }
+
   template <bool First, class Chunk>
   SHORTSHOT_INLINE void cast(const Chunk& chunk, std::uint32_t i, PointShares&& shares, const VoteUnit& unit) noexcept {
     const Votes<count> votes = votes_at<Voting, Part>(chunk, i, shares, unit);
-    unroll<count>([&](auto k) {
-      simd::store(index + i + k * ChunkSize, votes.index[k]);
-      if constexpr (First || !is_shared<Voting>(k)) simd::store(weight + i + k * ChunkSize, votes.weight[k]);
-    });
+    unroll<count>([&](auto k) { simd::store(this->index + i + k * ChunkSize, votes.index[k]); });
+    this->template keep_weights<First>(i, votes.weight);
   }
 };
 
@@ -85,41 +105,80 @@ inline constexpr int votes_of_most = [] {
   return most;
 }();
 
+/// Where vote `K` of neighbor `i` of a chunk goes.
+template <int K, std::uint32_t ChunkSize, class Votes>
+[[nodiscard]] SHORTSHOT_INLINE float* place_of_vote(float* out, const Votes& votes, std::uint32_t i) noexcept {
+  return out + Votes::origin(K) + std::ptrdiff_t{votes.index[K * ChunkSize + i]};
+}
+
 /// Vote `K` of neighbor `i` of a chunk, of the weight that `source` has.
 template <int K, std::uint32_t ChunkSize, class Votes, class Source>
 SHORTSHOT_INLINE void add_vote(float* out, const Votes& votes, const Source& source, std::uint32_t i) noexcept {
-  constexpr std::uint32_t first = K * ChunkSize;
   if constexpr (K < Votes::count) {
-    add_bits(out + Votes::offset + votes.index[first + i], source.weight[first + i]);
+    add_bits(place_of_vote<K, ChunkSize>(out, votes, i), source.weight[K * ChunkSize + i]);
   }
 }
 
-/// All votes of neighbor `i` of a chunk, for all parts on one grid.
-template <class Voting, std::uint32_t ChunkSize, class First, class... Others>
+/// Votes of one neighbor for a part, to distinct places: their sums are loaded together, and no load waits for a store.
+template <int Count>
+struct DistinctVotes {
+  float* places[static_cast<std::size_t>(Count)];
+  std::int32_t sums[static_cast<std::size_t>(Count)];
+
+  template <class Voting, std::uint32_t ChunkSize, bool OneGrid, class First, class Votes>
+  SHORTSHOT_INLINE void load(std::uint32_t i, float* out, const First& first, const Votes& votes) noexcept {
+    unroll<Count>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      places[k] = place_of_vote<k, ChunkSize>(out, votes, i);
+      if constexpr (OneGrid && is_shared<Voting>(k)) {
+        sums[k] = sum_at(places[k], first.weight[k * ChunkSize + i]);
+      } else {
+        sums[k] = sum_at(places[k], votes.weight[k * ChunkSize + i]);
+      }
+    });
+  }
+  SHORTSHOT_INLINE void store() const noexcept {
+    unroll<Count>([&](auto k) SHORTSHOT_INLINE_LAMBDA { set_bits(places[k], sums[k]); });
+  }
+};
+
+/// All votes of neighbor `i` of a chunk, for several parts; on one grid, or each on its own.
+template <class Voting, std::uint32_t ChunkSize, bool OneGrid, class First, class... Others>
 SHORTSHOT_INLINE void add_votes(std::uint32_t i, float* out, const First& first, const Others&... others) noexcept {
-  unroll<votes_of_most<First, Others...>>([&](auto k) {
-    add_vote<k, ChunkSize>(out, first, first, i);
-    if constexpr (is_shared<Voting>(k)) {
-      (add_vote<k, ChunkSize>(out, others, first, i), ...);
-    } else {
-      (add_vote<k, ChunkSize>(out, others, others, i), ...);
-    }
-  });
+  if constexpr (First::goes_to_distinct_places && !simd::adds_to_memory) {
+    const auto add = [&](auto of_first, auto... of_others) SHORTSHOT_INLINE_LAMBDA {
+      of_first.template load<Voting, ChunkSize, OneGrid>(i, out, first, first);
+      (of_others.template load<Voting, ChunkSize, OneGrid>(i, out, first, others), ...);
+      of_first.store();
+      (of_others.store(), ...);
+    };
+    add(DistinctVotes<First::count>(), DistinctVotes<Others::count>()...);
+  } else {
+    unroll<votes_of_most<First, Others...>>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      add_vote<k, ChunkSize>(out, first, first, i);
+      if constexpr (OneGrid && is_shared<Voting>(k)) {
+        (add_vote<k, ChunkSize>(out, others, first, i), ...);
+      } else {
+        (add_vote<k, ChunkSize>(out, others, others, i), ...);
+      }
+    });
+  }
 }
 
-/// The votes of a chunk for all parts on one grid. Neighbors from its four stretches are taken in turn.
-template <class Voting, std::uint32_t ChunkSize, class... Votes>
-inline void scatter(std::uint32_t size, float* out, const Votes&... votes) noexcept {
+/// The votes of a chunk for several parts. Neighbors from the four stretches of a full chunk are taken in turn.
+template <class Voting, std::uint32_t ChunkSize, bool OneGrid, class... Votes>
+SHORTSHOT_INLINE void scatter(std::uint32_t size, float* out, const Votes&... votes) noexcept {
   constexpr std::uint32_t quarter = ChunkSize / 4;  // a stretch of a full chunk; any other split would do
-  static_assert(stretches_of_full_chunk == 4, "what is written out below");
+  static_assert(stretches_of_full_chunk == 4 && ChunkSize % 4 == 0, "what is written out below");
+  const auto add = [&](std::uint32_t i)
+                       SHORTSHOT_INLINE_LAMBDA { add_votes<Voting, ChunkSize, OneGrid>(i, out, votes...); };
   std::uint32_t i = 0;
-  if (size >= 3 * quarter) {
-    for (; i < size - 3 * quarter; ++i) {
-      unroll<4>([&](auto k) { add_votes<Voting, ChunkSize>(i + k * quarter, out, votes...); });
+  if (size > 3 * quarter) {
+    for (; i < size - 3 * quarter; ++i) unroll<4>([&](auto k) SHORTSHOT_INLINE_LAMBDA { add(i + k * quarter); });
+    for (; i < quarter; ++i) {
+      for (std::uint32_t k = i; k < 3 * quarter; k += quarter) add(k);
     }
-  }
-  for (; i < quarter; ++i) {
-    for (std::uint32_t k = i; k < size; k += quarter) add_votes<Voting, ChunkSize>(k, out, votes...);
+  } else {
+    for (; i < size; ++i) add(i);
   }
 }
 
@@ -144,7 +203,7 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& fi
       (others.template cast<false>(chunk, i, widened<std::decay_t<Others>::Part::values / values>(shares), unit), ...);
     }
   }
-  scatter<Voting, Chunk::room>(size, out, first, others...);
+  scatter<Voting, Chunk::room, true>(size, out, first, others...);
 }
 
 /// The votes of neighbor `i` of a chunk for one part, added at once: there is one lane only.
@@ -218,8 +277,7 @@ inline void accumulate_all(Descriptor<Voting, Parts...> descriptor, std::index_s
     accumulate<Voting>(chunk, unit, out, ChunkVotes<Voting, Parts, D::offset(I), Chunk::room>()...);
   } else {
     const auto accumulate_part = [&](auto part, float* values) {
-      using Part = decltype(part);
-      accumulate<Voting>(chunk, unit, values, ChunkVotes<Voting, Part, 0, Chunk::room>());
+      accumulate<Voting>(chunk, unit, values, ChunkVotes<Voting, decltype(part), 0, Chunk::room>());
     };
     (accumulate_part(Parts{}, out + D::offset(I)), ...);
   }

@@ -19,6 +19,9 @@ struct Chunk {
   static_assert(Room >= simd::lanes && Room <= 1024 && Room % simd::lanes == 0,
                 "ChunkSize supports multiples of simd::lanes up to 1024: registers do not reach beyond its end");
   static constexpr std::uint32_t room = Room;
+  /// Passes go through a register at a time, or two where the room is for that.
+  static constexpr std::uint32_t step =
+      Room % (2 * simd::lanes) == 0 && simd::lanes > 1 ? 2 * simd::lanes : simd::lanes;
   static constexpr int rows_of_place = 3;
   static constexpr int signals = Signals::size;
   std::uint32_t size;

@@ -2,7 +2,9 @@
 //
 // Neighbors go through in chunks, each chunk in passes over small arrays: locate (local spherical coordinates,
 // to_spherical.hpp), the distances of colors, and then for each part shares among cells (vote_shares.hpp), votes and
-// their addition (accumulate.hpp). Votes are integers, and so are their sums (fixed_point.hpp).
+// their addition (accumulate.hpp). Where there are lanes, the votes of most rules are worked out two registers at a
+// time (short_votes.hpp), in place of vote_shares.hpp: the rule, the arithmetic of cells and the addition are the same
+// code. Votes are integers, and so are their sums (fixed_point.hpp).
 #ifndef SHORTSHOT_KERNEL_DESCRIBE_HPP
 #define SHORTSHOT_KERNEL_DESCRIBE_HPP
 
@@ -27,6 +29,7 @@
 #include "accumulate_means.hpp"
 #include "finish.hpp"
 #include "mean_color.hpp"
+#include "short_votes.hpp"
 #include "soft_cells.hpp"
 #include "soft_votes.hpp"
 #include "to_spherical.hpp"
@@ -71,8 +74,8 @@ inline void accumulate_each(Descriptor<Voting, Parts...>, std::index_sequence<I.
   (accumulate_one(Parts{}, weights + D::weight_offset(I), out + D::offset(I)), ...);
 }
 
-/// describe() for what was checked before; `out` is all zeros. (Not inlined: its chunk need not be on the stack while
-/// the frame is estimated.)
+/// describe() for what was checked before; `out` is all zeros, unless votes have sums of their own. (Not inlined: its
+/// chunk need not be on the stack while the frame is estimated.)
 template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
 [[nodiscard, gnu::noinline]] inline Status describe_checked(const Neighbors& n, const Sources& sources,
                                                             const Frame& frame, Radius radius, float* out) noexcept {
@@ -87,6 +90,9 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
   constexpr bool has_quads = is_soft<D>() && simd::lanes > 1;
   [[maybe_unused]] Quad quads[has_quads ? simd::lanes * static_cast<std::size_t>(quads_of<D>()) : 1];
   if constexpr (has_quads) std::memset(quads, 0, sizeof quads);
+  constexpr bool has_short_votes = short_sums<ChunkSize>(D{}) > 0;
+  [[maybe_unused]] float own_sums[static_cast<std::size_t>(short_sums<ChunkSize>(D{}) + 1)];
+  if constexpr (has_short_votes) clear_sums(D{}, own_sums);
   for (std::uint32_t i = 0; i * ChunkSize < n.size; ++i) {
     locate<typename D::Cells, typename D::ShellBorders>(n, stretches_of_chunk<ChunkSize>(i, n.size), frame, radius,
                                                         of_place, chunk);
@@ -95,6 +101,8 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
       add_soft_votes(D{}, parts, chunk, static_cast<float>(unit.one), quads);
     } else if constexpr (is_soft<D>()) {
       add_soft_points(D{}, parts, chunk, static_cast<float>(unit.one), weights, out);
+    } else if constexpr (has_short_votes) {
+      accumulate_all_short_votes(D{}, parts, chunk, unit, own_sums);
     } else if constexpr (D::is_plain) {
       accumulate_all(D{}, parts, chunk, unit, out);
     } else {
@@ -102,7 +110,7 @@ template <class D, std::uint32_t ChunkSize, class Neighbors, class Sources>
     }
   }
   if constexpr (has_quads) gather_all_quads(D{}, parts, quads, weights, out);
-  return finish(D{}, parts, out, weights);
+  return finish(D{}, parts, has_short_votes ? own_sums : out, out, weights);
 }
 
 /// The first status that is not ok of those sources that D reads.
@@ -121,13 +129,16 @@ inline namespace SHORTSHOT_CODE {
 
 /// Neighbors that go through the kernel together: of that length are all arrays that it has on the stack. A template
 /// parameter of describe() and describe_at(), any multiple of simd::lanes: it changes speed and memory, no result.
-inline constexpr std::uint32_t default_chunk_size = extend::simd::lanes == 1 ? 16 : 64;
+inline constexpr std::uint32_t default_chunk_size = extend::simd::lanes == 1 ? 16 : 128;
 
-/// Bytes of those arrays, and of the quads in which compact descriptors add up their votes.
+/// Bytes of those arrays, and of the sums (of compact descriptors: quads) that the kernel keeps for itself where there
+/// are lanes.
 template <class D, std::uint32_t ChunkSize = default_chunk_size>
 inline constexpr std::size_t chunk_bytes = [] {
   if constexpr (detail::is_soft<D>()) {
     return detail::soft_scratch_bytes<D, ChunkSize>();
+  } else if constexpr (detail::short_sums<ChunkSize>(D{}) > 0) {
+    return detail::short_scratch_bytes<ChunkSize>(D{});
   } else {
     return detail::scratch_bytes<ChunkSize>(D{});
   }
@@ -157,7 +168,8 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors
       has_all,
       "describe() needs a source for each of D's signals: RgbColors or LabColors for ColorDistance, CloudNormals "
       "for NormalCosine, CloudIntensities for Intensity, and your own for your own");
-  std::memset(out, 0, D::size_bytes);
+  constexpr bool has_own_sums = detail::short_sums<ChunkSize>(D{}) > 0;
+  if (!has_own_sums) std::memset(out, 0, D::size_bytes);
   Status status = validate(radius);
   if (status == Status::ok && D::needs_frame) status = validate(frame);
   if constexpr (has_all) {
@@ -166,6 +178,7 @@ template <class D, std::uint32_t ChunkSize = default_chunk_size, class Neighbors
     const Frame& used = D::needs_frame ? frame : detail::any_frame;
     if (status == Status::ok) status = detail::describe_checked<D, ChunkSize>(n, sources, used, radius, out);
   }
+  if (has_own_sums && status != Status::ok) std::memset(out, 0, D::size_bytes);
   return status;
 }
 

@@ -25,16 +25,16 @@ inline void to_floats(float* values, int size) noexcept {
   for (int i = 0; i < size; ++i) values[i] = static_cast<float>(integer_at(values + i));
 }
 
-/// Integers (or, of parts that are finished, floats) to floats of L2 norm 1. Squares are added up in eight places,
-/// whatever the number of lanes: the same order, and so the same bits, from all.
+/// Integers (or, of parts that are finished, floats) to floats of L2 norm 1, in place or not. Squares are added up in
+/// eight places, whatever the number of lanes: the same order, and so the same bits, from all.
 template <bool AreIntegers>
-[[nodiscard]] inline Status normalize(float* values, int size) noexcept {
+[[nodiscard]] inline Status normalize(const float* from, float* values, int size) noexcept {
   constexpr int lanes = static_cast<int>(simd::lanes);
   const int whole = small_code && lanes == 1 ? 0 : size / 8 * 8;
   simd::F32 squares[8 / lanes] = {};
   for (int i = 0; i < whole; i += 8) {
     each<8 / lanes>([&](auto k) {
-      simd::F32 value = simd::load(values + i + k * lanes);
+      simd::F32 value = simd::load(from + i + k * lanes);
       if constexpr (AreIntegers) {
         value = to_float(bits_of(value));
         simd::store(values + i + k * lanes, value);
@@ -45,7 +45,7 @@ template <bool AreIntegers>
   float s[8];
   each<8 / lanes>([&](auto k) { simd::store(s + k * lanes, squares[k]); });
   for (int i = whole; i < size; ++i) {
-    if constexpr (AreIntegers) to_floats(values + i, 1);
+    if constexpr (AreIntegers) values[i] = static_cast<float>(integer_at(from + i));
     s[i % 8] += unfused(values[i] * values[i]);
   }
 
@@ -66,18 +66,19 @@ inline void finish_part(float* values, [[maybe_unused]] float* weights) noexcept
   if constexpr (!std::is_same<typename Part::Finish, PlainSums>::value) Part::Finish::apply(values, Part::size);
 }
 
-/// All parts'; `weights` are the sums of votes of parts with means.
+/// All parts'; `sums` are the values themselves, unless all are plain; `weights`, the sums of votes of parts with
+/// means.
 template <class Voting, class... Parts, std::size_t... I>
-[[nodiscard]] inline Status finish(Descriptor<Voting, Parts...>, std::index_sequence<I...>, float* values,
-                                   [[maybe_unused]] float* weights) noexcept {
+[[nodiscard]] inline Status finish(Descriptor<Voting, Parts...>, std::index_sequence<I...>, const float* sums,
+                                   float* values, [[maybe_unused]] float* weights) noexcept {
   using D = Descriptor<Voting, Parts...>;
   if constexpr (D::is_plain) {
-    return normalize<true>(values, D::size);
+    return normalize<true>(sums, values, D::size);
   } else {
     to_floats(values, D::size);
     to_floats(weights, D::weight_cells);
     (finish_part<Parts>(values + D::offset(I), weights + D::weight_offset(I)), ...);
-    return normalize<false>(values, D::size);
+    return normalize<false>(values, values, D::size);
   }
 }
 

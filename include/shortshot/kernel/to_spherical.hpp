@@ -107,25 +107,29 @@ template <class Cells, class Borders, class Neighbors, class Signals, class Chun
   const Signals signals = signals_of_place;
   std::conditional_t<small_code, const Frame&, const FrameLanes> axes(frame);
   std::uint32_t size = 0;
-  for (std::uint32_t k = 0; k < stretches.count; ++k) {
-    const std::uint32_t first = stretches.first + k * stretches.stride;
-    const std::uint32_t end = first + stretches.length;
-    for (std::uint32_t i = first; i < end; i += simd::lanes) {
-      const NeighborLanes v = load_neighbors(n, i);
-      const Located<values> now = locate_register<Cells, Borders, values>(v, axes, radius, signals);
-      if (every(now.described)) {
-        append(chunk, size, v.index, now, signals);
-        size += static_cast<std::uint32_t>(simd::lanes);
-      } else if constexpr (simd::lanes > 1) {
-        const simd::Packing packing = simd::packing(now.described);
-        append(chunk, size, v.index, now, signals, packing);
-        size += packing.count;
-      }
+  std::uint32_t i = stretches.first;  // one loop over all stretches: what it keeps in registers is loaded once
+  std::uint32_t end = i + stretches.length;
+  for (std::uint32_t left = stretches.count;;) {
+    const NeighborLanes v = load_neighbors(n, i);
+    const Located<values> now = locate_register<Cells, Borders, values>(v, axes, radius, signals);
+    if (every(now.described)) {
+      append(chunk, size, v.index, now, signals);
+      size += static_cast<std::uint32_t>(simd::lanes);
+    } else if constexpr (simd::lanes > 1) {
+      const simd::Packing packing = simd::packing(now.described);
+      append(chunk, size, v.index, now, signals, packing);
+      size += packing.count;
+    }
+    i += simd::lanes;
+    if (i >= end) {
+      if (simd::lanes == 1 || --left == 0) break;  // where there is one lane, there is one stretch
+      i = end + (stretches.stride - stretches.length);
+      end += stretches.stride;
     }
   }
   chunk.size = size;
   // What passes read beyond the end must be points that exist, and numbers.
-  for (; size % simd::lanes != 0; ++size) {
+  for (; size % Chunk::step != 0; ++size) {
     chunk.index[size] = n.index[stretches.first];
     for (int k = 0; k < Chunk::rows_of_place + Chunk::signals; ++k)
       chunk.rows[size + std::size_t{Chunk::room} * static_cast<std::size_t>(k)] = 0.0f;

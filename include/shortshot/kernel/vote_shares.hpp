@@ -28,6 +28,17 @@ template <class Voting, class Cells, class Scale>
   return Voting::split(axis, Cells::template position<Scale>(axis, k, coordinate), unit);
 }
 
+/// What axis `K` of a part (3: its histogram's) goes by, of one register of a chunk's neighbors from `i` on.
+template <class Part, int K, class Chunk>
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 coordinate_at(const Chunk& chunk, std::uint32_t i) noexcept {
+  if constexpr (K == 3) {
+    using Signal = typename Part::Signal;
+    return place_in_histogram<Signal>(simd::load(chunk.row(Chunk::template row_of<Signal>, i)));
+  } else {
+    return simd::load(chunk.row(K, i));
+  }
+}
+
 /// One register of a chunk's neighbors in the frame's spherical coordinates.
 struct Coordinates {
   simd::F32 of[3];
@@ -74,8 +85,7 @@ template <class Voting, class Part, class Chunk>
                                                                       const VoteUnit& unit) noexcept {
   constexpr const Axis(&axes)[4] = Part::template axes<Part::values>;
   if constexpr (Part::has_histogram) {
-    using Signal = typename Part::Signal;
-    const simd::F32 signal = place_in_histogram<Signal>(simd::load(chunk.row(Chunk::template row_of<Signal>, i)));
+    const simd::F32 signal = coordinate_at<Part, 3>(chunk, i);
     shares.axes[3] = share_along_axis<Voting, typename Part::Cells, typename Part::Scale>(axes[3], 3, signal, unit);
   }
   return Voting::template combine<Part::axis_count>(axes, shares.axes, unit);

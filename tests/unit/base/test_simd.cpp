@@ -101,4 +101,42 @@ TEST_CASE("simd: numbers differ, zeros do not, and NaN differs from itself") {
   CHECK(differ(not_a_number, not_a_number));
 }
 
+TEST_CASE("simd: two registers in one of 16 bits, in order, with the arithmetic of one") {
+  constexpr std::size_t both = 2 * lanes;
+  std::uint32_t bits[both];
+  std::int32_t numbers[both];
+  for (std::size_t k = 0; k < both; ++k) {
+    numbers[k] = k % 5 == 0 ? -32768 : k % 5 == 1 ? 32767 : static_cast<std::int32_t>(k * k * 23) - 700;
+    bits[k] = static_cast<std::uint32_t>(numbers[k]);
+  }
+  const simd::I32 first = simd::load(bits), second = simd::load(bits + lanes);
+  const simd::I16 a = narrow(first, second);
+  const simd::I16 b = simd::like(a, 7);
+  const auto check = [&](simd::I16 result, auto expected) {
+    std::int16_t shorts[both + 1] = {};
+    shorts[both] = 77;
+    simd::store(shorts, result);
+    for (std::size_t k = 0; k < both; ++k) CHECK(shorts[k] == static_cast<std::int16_t>(expected(numbers[k])));
+    CHECK(shorts[both] == 77);
+  };
+  check(a, [](int x) { return x; });
+  check(narrow(first > simd::all_int(100), second > simd::all_int(100)), [](int x) { return x > 100 ? -1 : 0; });
+  check(a + b, [](int x) { return x + 7; });
+  check(a - b, [](int x) { return x - 7; });
+  check(a & b, [](int x) { return x & 7; });
+  check(a | b, [](int x) { return x | 7; });
+  check(a * b, [](int x) { return x * 7; });
+  check(a == b, [](int x) { return x == 7 ? -1 : 0; });
+  check(a > b, [](int x) { return x > 7 ? -1 : 0; });
+  check(is_negative(a), [](int x) { return x < 0 ? -1 : 0; });
+  check(small_min(a, b), [](int x) { return x < 7 ? x : 7; });
+  check(small_max(a, b), [](int x) { return x > 7 ? x : 7; });
+  check(keep(is_negative(a), b), [](int x) { return x < 0 ? 7 : 0; });
+  check(drop(is_negative(a), b), [](int x) { return x < 0 ? 0 : 7; });
+  check(minus_one_or_one(is_negative(a)), [](int x) { return x < 0 ? -1 : 1; });
+  for (const int factor : {1, 2, 3, 8, 60}) {
+    check(ss::extend::times(a, factor), [=](int x) { return x * factor; });
+  }
+}
+
 }  // namespace test_simd
