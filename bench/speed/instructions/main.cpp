@@ -37,8 +37,8 @@ const std::string workload =
     "generated tabletop, 640 x 480, seed 1, R = 0.04 m, 100 key points; normals: all points, R = 0.01 m";
 
 bool is_gated(const std::string& stage) {
-  for (const char* name : {"sample", "index grid again", "lab", "search grid", "frame", "normals", "kernel Ssh32",
-                           "kernel Scsh336", "kernel Scsh696", "kernel Shot352", "kernel Cshot1344",
+  for (const char* name : {"sample", "index grid again", "lab", "search grid", "frame", "normals", "image normals",
+                           "kernel Ssh32", "kernel Scsh336", "kernel Scsh696", "kernel Shot352", "kernel Cshot1344",
                            "kernel IntensityShape336", "kernel ShapeColor95", "kernel ShapeColor32"}) {
     if (stage == name) return true;
   }

@@ -105,6 +105,19 @@ class StageList {
     stage.bytes = stage.points * sizeof(shortshot::SurfaceNormal);
   }
 
+  /// The same of the depth image, within the same radius, in the memory of the last run.
+  void add_image_normals() {
+    const Workload& w = workload_;
+    if (!w.cloud.is_organized()) return;
+    const auto estimator = std::make_shared<shortshot::ImageNormalEstimator>();
+    const auto normals = std::make_shared<std::vector<shortshot::SurfaceNormal>>();
+    Stage& stage = add("image normals", [&w, estimator, normals] {
+      return normals_of_image(w.view(), w.normal_radius, camera_of_cloud(w.cloud), *estimator, *normals);
+    });
+    stage.points = w.cloud.size();
+    stage.bytes = stage.points * sizeof(shortshot::SurfaceNormal);
+  }
+
   void add_lab() {
     if (!workload_.cloud.has_colors()) return;
     Stage& stage = add("lab", [&w = workload_, lab = lab_by<shortshot::PublishedLab>()] {
@@ -249,6 +262,7 @@ StageBuild STAGES(const Workload& workload) {
   list.add_search_nanoflann();
   list.add_frame();
   list.add_normals();
+  list.add_image_normals();
   list.add_lab();
   list.add_descriptor<shortshot::Ssh32>("Ssh32");
   list.add_descriptor<shortshot::Ssh96>("Ssh96");

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "../config.hpp"
+#include "quad.hpp"
 #include "unfused.hpp"
 
 namespace shortshot::extend::simd {
@@ -128,6 +129,11 @@ template <class Function>
 [[nodiscard]] inline I32 drop(Mask m, I32 a) noexcept { return {m.v ? 0 : a.v}; }
 /// -a where `sign` has its sign bit set, else a.
 [[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept { return {bits_of(sign).v < 0 ? -a.v : a.v}; }
+
+/// What the lane has in a, b, c and d.
+[[gnu::always_inline]] inline void transpose(I32 a, I32 b, I32 c, I32 d, Quad (&quads)[lanes]) noexcept {
+  quads[0] = Quad{a.v, b.v, c.v, d.v};
+}
 
 /// The three floats at base + 3 * index[k], for all lanes.
 [[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,

@@ -129,7 +129,7 @@ TEST_CASE("every build has the same stages, and they all run") {
   const std::vector<StageBuild> builds = build_stages(small_workload());
   REQUIRE(builds.size() == (cpu_has_avx2() ? 2 : 1));
   for (const StageBuild& build : builds) {
-    REQUIRE(build.stages.size() == 29);
+    REQUIRE(build.stages.size() == 30);
     for (std::size_t i = 0; i < build.stages.size(); ++i) {
       const Stage& stage = build.stages[i];
       CAPTURE(stage.name);
@@ -151,7 +151,7 @@ TEST_CASE("a cloud without colors and intensities has the stages that need none"
   scene.intensity.clear();
   const Workload workload = make_workload(std::move(scene), {});
   const std::vector<StageBuild> builds = build_stages(workload);
-  CHECK(builds[0].stages.size() == 16);
+  CHECK(builds[0].stages.size() == 17);
   for (const Stage& stage : builds[0].stages) {
     CAPTURE(stage.name);
     CHECK(stage.name.find("Scsh") == std::string::npos);
@@ -166,7 +166,7 @@ TEST_CASE("a cloud with intensities and no colors has their stages, too") {
   scene.rgb.clear();
   const Workload workload = make_workload(std::move(scene), {});
   const std::vector<StageBuild> builds = build_stages(workload);
-  CHECK(builds[0].stages.size() == 18);
+  CHECK(builds[0].stages.size() == 19);
   const auto is_intensity = [](const Stage& stage) { return stage.name == "kernel IntensityShape336"; };
   CHECK(std::count_if(builds[0].stages.begin(), builds[0].stages.end(), is_intensity) == 1);
 }
