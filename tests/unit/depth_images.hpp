@@ -132,8 +132,9 @@ class WindowOracle {
         Sums part;
         add(i, bounds[c], bounds[c + 1], bounds[r], bounds[r + 1], part);
         const double mean = part.moments.trace() / std::max(part.count, 1.0) / 1024.0;
-        if (all.edges && std::abs(mean - 1.0) < 0.002) return false;
-        if (mean <= 1.0) near += part;
+        const double limit = part.edges ? 0.5 : 1.0;
+        if (all.edges && std::abs(mean - limit) < 0.002) return false;
+        if (mean <= limit) near += part;
       }
     }
     const Sums& sums = all.edges ? near : all;

@@ -220,14 +220,16 @@ class ImageNormalEstimator {
   std::vector<detail::ImageBand> bands_;  // one per thread
 };
 
-/// The surface normal at each point of a depth image, in a time that does not depend on how many neighbors it has: a
-/// sixth of estimate_normals()' instructions and less. Not the same normals, but near them: see bench/RESULTS.md for
-/// how near, by depth and by distance from an edge.
+/// The surface normal at each point of a depth image, at a cost that does not depend on how many neighbors it has: of a
+/// frame of 640 x 480, within 1 cm, a tenth of estimate_normals()' instructions, and no index. Not the same normals,
+/// but near them, 1 to 2 degrees on surfaces: bench/RESULTS.md says how near, by depth and by distance from an edge.
 ///
 /// A normal is that of the plane through the points of a square window, whose sums come from running sums over the
-/// image. The window has the second moments of a disc of the radius that faces the camera at the point's depth. Where
-/// it has an edge (depths side by side, or across a hole, that differ by more than the radius), those of its nine parts
-/// count whose points lie within the radius of the middle. Windows have at most 59 x 59 pixels.
+/// image, of points rounded to a 32nd of the radius. The window has the second moments of a disc of the radius that
+/// faces the camera at the point's depth, and at most 59 x 59 pixels. Where it has an edge (depths side by side, or
+/// across a hole, that differ by more than the radius and more than on any slope up to 83 degrees), those of its nine
+/// parts count whose points lie within the radius of the middle by root mean square; half of the square, if the part
+/// has an edge.
 ///
 /// `cloud`      an image (width and height) that a pinhole camera took, in its own coordinates: z is the depth. Points
 ///              that are not finite, or whose z is 0, are holes

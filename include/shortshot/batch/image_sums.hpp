@@ -60,19 +60,20 @@ struct PixelPoints {
   return {usable, to_whole(keep(usable, x)), to_whole(keep(usable, y)), to_whole(keep(usable, z))};
 }
 
-/// Do the points of a part of a window lie within the radius of the window's middle, by root mean square?
+/// Do the points of a part of a window lie within the radius of the window's middle, by root mean square? Where the
+/// part has an edge itself, half of the squares must do.
 struct Nearness {
   std::uint32_t x, y, z, squares;  ///< of the middle
 
-  [[nodiscard, gnu::always_inline]] bool holds(const WrappingQuad& places,
-                                               std::uint32_t squares_of_part) const noexcept {
+  [[nodiscard, gnu::always_inline]] bool holds(const PixelSums& part) const noexcept {
+    const WrappingQuad& places = part.places;
     const std::uint32_t count = places[0];
     const std::uint32_t along = places[1] * x + places[2] * y + places[3] * z;
-    const std::uint32_t distances = squares_of_part + count * squares - 2 * along;
+    const std::uint32_t distances = part.others[3] + count * squares - 2 * along;
     // Squares of points very far from the middle wrap; but then their mean depth is far from its, too.
     const std::uint32_t within = count * static_cast<std::uint32_t>(steps_of_radius);
-    return distances <= within * static_cast<std::uint32_t>(steps_of_radius) &&
-           places[3] - count * z + within <= 2 * within;
+    const std::uint32_t limit = within * static_cast<std::uint32_t>(steps_of_radius);
+    return distances <= (has_edges(part) ? limit / 2 : limit) && places[3] - count * z + within <= 2 * within;
   }
 };
 
@@ -88,8 +89,7 @@ struct SummedRows {
     return (bottom[w.right] - bottom[w.left]) - (top[w.right] - top[w.left]);
   }
 
-  /// Over those of nine parts of a window whose points lie within the radius of its middle, by root mean square: where
-  /// there are edges, the parts on this side of them.
+  /// Over those of nine parts of a window that are near its middle: where there are edges, on this side of them.
   [[nodiscard]] PixelSums over_near_parts(const Window& window, const Window& middle,
                                           const WholePoint& center) const noexcept {
     const std::uint32_t x = static_cast<std::uint32_t>(center.x);
@@ -105,7 +105,7 @@ struct SummedRows {
       const auto add_part = [&](std::size_t end) SHORTSHOT_INLINE_LAMBDA {
         const PixelSums right = bottom[end] - top[end];
         const PixelSums part = right - left;
-        if (near.holds(part.places, part.others[3])) sums = sums + part;
+        if (near.holds(part)) sums = sums + part;
         left = right;
       };
       add_part(middle.left);
