@@ -135,7 +135,7 @@ class ImageBand {
                                 rows.half[lane], pixels, lane);
       }
     });
-    return lanes_of<lane_count>(sums);
+    return lanes_of<simd::lanes>(sums);
   }
 
   [[nodiscard, gnu::noinline]] PixelSums near_parts(const Window& window, std::size_t column, std::size_t half_columns,

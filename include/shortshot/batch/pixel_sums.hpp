@@ -89,27 +89,28 @@ struct SumLanes {
 };
 
 /// A template, so that the branch of several lanes is none of one lane's.
-template <int Lanes>
+template <std::size_t Lanes>
 [[nodiscard, gnu::always_inline]] inline SumLanes lanes_of(PixelSums* sums) noexcept {
   SumLanes result;
   if constexpr (Lanes == 1) {
     std::memcpy(&result, sums, sizeof result);
   } else {
     // In each part of four lanes, four of whose kinds become four registers' parts.
+    constexpr int count = static_cast<int>(Lanes / 4);
     unroll<PixelSums::quads>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
       struct Parts {
         WrappingQuad of[Lanes / 4];
       };
       const auto row = [&](int i) SHORTSHOT_INLINE_LAMBDA {
         Parts parts;
-        unroll<Lanes / 4>([&](auto part) { parts.of[part] = sums[i + 4 * part].quad(k); });
+        unroll<count>([&](auto part) { parts.of[part] = sums[i + 4 * part].quad(k); });
         return same_bits<simd::I32>(parts);
       };
       simd::Quad quads[Lanes];
       transpose(row(0), row(1), row(2), row(3), quads);
       unroll<4>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
         Parts parts;
-        unroll<Lanes / 4>([&](auto part) { parts.of[part] = same_bits<WrappingQuad>(quads[i + 4 * part]); });
+        unroll<count>([&](auto part) { parts.of[part] = same_bits<WrappingQuad>(quads[i + 4 * part]); });
         result.of[4 * k + i] = same_bits<WrappingLanes>(parts);
       });
     });
