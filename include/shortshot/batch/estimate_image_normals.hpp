@@ -207,7 +207,7 @@ class ImageNormalEstimator {
     auto&& executor = detail::executor_of(threads, (cloud.height + detail::rows_of_band - 1) / detail::rows_of_band);
     const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
     if (bands_.size() < team) bands_.resize(team);
-    for (detail::ImageBand& band : bands_) band.reserve(cloud.width);  // whichever thread gets work this time
+    for (std::size_t t = 0; t < team; ++t) bands_[t].reserve(cloud.width);  // whichever thread gets work this time
     constexpr float none = std::numeric_limits<float>::quiet_NaN();
     normals.assign(cloud.size, {none, none, none});  // and so they stay where an executor throws before their turn
     const std::size_t rows = std::max(detail::rows_of_band, (cloud.height + team - 1) / team);
