@@ -10793,11 +10793,14 @@ class ImageBand {
     std::uint32_t first[simd::lanes], end[simd::lanes], half[simd::lanes];
   };
 
-  [[nodiscard, gnu::always_inline]] static Spans spans(simd::F32 middle, simd::F32 half, std::size_t size) noexcept {
+  /// Those of holes are empty.
+  [[nodiscard, gnu::always_inline]] static Spans spans(simd::F32 middle, simd::F32 half, std::size_t size,
+                                                       simd::Mask valid) noexcept {
     Spans result;
-    simd::store(result.first, round_to_int(simd::max(middle - half, simd::all(0.0f))));
-    simd::store(result.end,
-                round_to_int(simd::min(middle + half + simd::all(1.0f), simd::all(static_cast<float>(size)))));
+    const simd::F32 first = simd::max(middle - half, simd::all(0.0f));
+    const simd::F32 end = simd::min(middle + half + simd::all(1.0f), simd::all(static_cast<float>(size)));
+    simd::store(result.first, round_to_int(first));
+    simd::store(result.end, round_to_int(select(valid, end, first)));
     simd::store(result.half, round_to_int(half));
     return result;
   }
@@ -10852,9 +10855,9 @@ class ImageBand {
     const simd::F32 safe = select(pixels.valid, depth, simd::all(1.0f));
     const simd::F32 number = simd::from_lanes([](std::size_t lane) { return static_cast<float>(lane); });
     const Spans columns = spans(simd::all(static_cast<float>(column)) + number,
-                                geometry.half_of_window(geometry.columns, safe), task.cloud.width);
-    const Spans rows =
-        spans(simd::all(static_cast<float>(row)), geometry.half_of_window(geometry.rows, safe), task.cloud.height);
+                                geometry.half_of_window(geometry.columns, safe), task.cloud.width, pixels.valid);
+    const Spans rows = spans(simd::all(static_cast<float>(row)), geometry.half_of_window(geometry.rows, safe),
+                             task.cloud.height, pixels.valid);
     const SummedRows summed = sums_.rows();
     PixelSums sums[simd::lanes];
     unroll<lane_count>([&](auto lane) SHORTSHOT_INLINE_LAMBDA {
