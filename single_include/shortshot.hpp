@@ -1076,6 +1076,11 @@ template <class Function>
 [[nodiscard]] inline I16 operator*(I16 a, I16 b) noexcept { return {a.v * b.v}; }
 inline void store(std::int16_t* p, I16 a) noexcept { std::memcpy(p, &a, sizeof a); }
 
+/// What the lane has in a, b, c and d.
+[[gnu::always_inline]] inline void transpose(I32 a, I32 b, I32 c, I32 d, Quad (&quads)[lanes]) noexcept {
+  quads[0] = Quad{a.v, b.v, c.v, d.v};
+}
+
 /// The three floats at base + 3 * index[k], for all lanes.
 [[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,
                                                 F32& c) noexcept {
@@ -1787,8 +1792,8 @@ struct PointLanes {
 template <class Function>
 [[nodiscard, gnu::always_inline]] inline PointLanes read_lanes(const Float3Channel& channel,
                                                                Function index_at) noexcept {
-  const auto read_component = [&](const unsigned char* first) {
-    return simd::from_lanes([&](std::size_t lane) {
+  const auto read_component = [&](const unsigned char* first) SHORTSHOT_INLINE_LAMBDA {
+    return simd::from_lanes([&](std::size_t lane) SHORTSHOT_INLINE_LAMBDA {
       float value = 0.0f;
       std::memcpy(&value, first + index_at(lane) * channel.stride_bytes, sizeof value);
       return value;
@@ -5109,6 +5114,15 @@ template <class Neighbors>
   return keep(flat, PointLanes{turned(0), turned(1), turned(2)});
 }
 
+/// What to turn the normals at these places to; zeros if the viewpoint is absent.
+[[nodiscard]] inline PointLanes directions(const Viewpoint& viewpoint, const PointLanes& places) noexcept {
+  using Side = Viewpoint::Side;
+  using simd::all;
+  const float side = viewpoint.side == Side::absent ? 0.0f : viewpoint.side == Side::towards ? 1.0f : -1.0f;
+  const Point& p = viewpoint.point;
+  return {(all(p.x) - places.x) * all(side), (all(p.y) - places.y) * all(side), (all(p.z) - places.z) * all(side)};
+}
+
 /// One normal from each lane.
 inline void store(SurfaceNormal* normals, const PointLanes& v) noexcept {
   float components[3][simd::lanes];
@@ -8221,6 +8235,10 @@ class StaticGrid {
 #ifndef SHORTSHOT_SEARCH_ORGANIZED_HPP
 #define SHORTSHOT_SEARCH_ORGANIZED_HPP
 
+// shortshot/search/pinhole.hpp: the camera that an organized cloud was taken with, fitted to its points.
+#ifndef SHORTSHOT_SEARCH_PINHOLE_HPP
+#define SHORTSHOT_SEARCH_PINHOLE_HPP
+
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
@@ -8229,7 +8247,43 @@ struct Projection {
   float focal;
   float center;
   float error;
+
+  void widen(float slope, float pixel) noexcept {
+    const float deviation = pixel - (extend::unfused(focal * slope) + center);
+    const float magnitude = deviation < 0.0f ? 0.0f - deviation : deviation;
+    if (!(magnitude <= error)) error = magnitude;
+  }
 };
+
+/// Least squares of pixel over slope in float, by running means so that a million points do not wear it out. It need
+/// not be exact: what the fit misses, the margin covers.
+struct PinholeLine {
+  float count, mean_slope, mean_pixel, variance, covariance;
+
+  void add_to_mean(float slope, float pixel) noexcept {
+    count += 1.0f;
+    mean_slope += (slope - mean_slope) / count;
+    mean_pixel += (pixel - mean_pixel) / count;
+  }
+  void add_to_slope(float slope, float pixel) noexcept {
+    variance += extend::unfused((slope - mean_slope) * (slope - mean_slope));
+    covariance += extend::unfused((slope - mean_slope) * (pixel - mean_pixel));
+  }
+  [[nodiscard]] bool is_finite() const noexcept {
+    return extend::math::is_finite(mean_slope) && extend::math::is_finite({variance, mean_pixel, covariance});
+  }
+  [[nodiscard]] Projection projection() const noexcept {
+    const float focal = variance > 0.0f ? covariance / variance : 0.0f;
+    return {focal, mean_pixel - extend::unfused(focal * mean_slope), 0.0f};
+  }
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_SEARCH_PINHOLE_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
 
 /// First and last pixel of a window.
 struct PixelRange {
@@ -8336,8 +8390,8 @@ class OrganizedSearch {
     if (!front && !behind && !nowhere) return Status::empty_cloud;
     if ((front && behind) || nowhere) return Status::not_organized;
 
-    Line columns{};
-    Line rows{};
+    detail::PinholeLine columns{};
+    detail::PinholeLine rows{};
     for_each_pixel([&](float u, float v, float x, float y) {
       columns.add_to_mean(x, u);
       rows.add_to_mean(y, v);
@@ -8351,41 +8405,12 @@ class OrganizedSearch {
     columns_ = columns.projection();
     rows_ = rows.projection();
     for_each_pixel([&](float u, float v, float x, float y) {
-      widen(columns_, x, u);
-      widen(rows_, y, v);
+      columns_.widen(x, u);
+      rows_.widen(y, v);
     });
     const bool pinhole = columns_.error <= 0.25f * static_cast<float>(cloud_.width) &&
                          rows_.error <= 0.25f * static_cast<float>(cloud_.height);
     return pinhole ? Status::ok : Status::not_organized;
-  }
-
-  /// Least squares of pixel over slope in float, by running means so that a million points do not wear it out. It need
-  /// not be exact: what the fit misses, the margin covers.
-  struct Line {
-    float count, mean_slope, mean_pixel, variance, covariance;
-
-    void add_to_mean(float slope, float pixel) noexcept {
-      count += 1.0f;
-      mean_slope += (slope - mean_slope) / count;
-      mean_pixel += (pixel - mean_pixel) / count;
-    }
-    void add_to_slope(float slope, float pixel) noexcept {
-      variance += extend::unfused((slope - mean_slope) * (slope - mean_slope));
-      covariance += extend::unfused((slope - mean_slope) * (pixel - mean_pixel));
-    }
-    [[nodiscard]] bool is_finite() const noexcept {
-      return extend::math::is_finite(mean_slope) && extend::math::is_finite({variance, mean_pixel, covariance});
-    }
-    [[nodiscard]] detail::Projection projection() const noexcept {
-      const float focal = variance > 0.0f ? covariance / variance : 0.0f;
-      return {focal, mean_pixel - extend::unfused(focal * mean_slope), 0.0f};
-    }
-  };
-
-  static void widen(detail::Projection& p, float slope, float pixel) noexcept {
-    const float deviation = pixel - (extend::unfused(p.focal * slope) + p.center);
-    const float magnitude = deviation < 0.0f ? 0.0f - deviation : deviation;
-    if (!(magnitude <= p.error)) p.error = magnitude;
   }
 
   CloudView cloud_;
@@ -10971,8 +10996,14 @@ template <class Search>
 class NormalEstimator {
  public:
   NormalEstimator(const CloudView& cloud, const Search& search, Radius radius, const Viewpoint& viewpoint,
-                  NormalMemory& memory, SurfaceNormal* normals) noexcept
-      : cloud_(cloud), search_(search), radius_(radius), viewpoint_(viewpoint), memory_(memory), normals_(normals) {
+                  const std::uint8_t* needed, NormalMemory& memory, SurfaceNormal* normals) noexcept
+      : cloud_(cloud),
+        search_(search),
+        radius_(radius),
+        viewpoint_(viewpoint),
+        needed_(needed),
+        memory_(memory),
+        normals_(normals) {
     const bool image = cloud.height > 1 && cloud.size % cloud.height == 0 && cloud.size / cloud.height == cloud.width;
     row_ = image ? cloud.width : 0;
   }
@@ -10992,7 +11023,9 @@ class NormalEstimator {
       estimate_part(0, group);
       used = 0;
     }
-    for (std::size_t k = 0; k < used; ++k) estimate_alone(k);
+    for (std::size_t k = 0; k < used; ++k) {
+      if (is_needed(k, 1)) estimate_alone(k);
+    }
   }
 
  private:
@@ -11009,8 +11042,17 @@ class NormalEstimator {
     return cloud_.size - first < rows * row_ ? k : first + (k - first) / rows + k % rows * row_;
   }
 
+  /// Is any of these points? Groups are made of all points, needed or not: so normals have the bits that they have
+  /// among those of the whole cloud.
+  [[nodiscard]] bool is_needed(std::size_t first, std::size_t count) const noexcept {
+    if (needed_ == nullptr) return true;
+    const std::size_t* const index = index_ + first;
+    return std::any_of(index, index + count, [this](std::size_t i) { return needed_[i] != 0; });
+  }
+
   /// Points [first, first + count) of the group, or each half of them if they lie too far apart.
   void estimate_part(std::size_t first, std::size_t count) {
+    if (!is_needed(first, count)) return;
     SurfaceNormal found[group] = {};
     const bool one_place = are_in_one_place(first, count);
     const SurfaceNormal* const known =
@@ -11070,18 +11112,8 @@ class NormalEstimator {
     }
     for (std::size_t k = first; k < first + count; k += simd::lanes) {
       const Moments moments = totals(shares + k);
-      store(found + k, keep(is_fine(moments, scale), normals_of(moments, scale, directions_at(k))));
+      store(found + k, keep(is_fine(moments, scale), normals_of(moments, scale, directions(viewpoint_, places(k)))));
     }
-  }
-
-  /// What to turn the normals of a register of points to; zeros if the viewpoint is absent.
-  [[nodiscard]] PointLanes directions_at(std::size_t k) const noexcept {
-    using Side = Viewpoint::Side;
-    const float side = viewpoint_.side == Side::absent ? 0.0f : viewpoint_.side == Side::towards ? 1.0f : -1.0f;
-    const Point& p = viewpoint_.point;
-    return {(simd::all(p.x) - simd::load(x_ + k)) * simd::all(side),
-            (simd::all(p.y) - simd::load(y_ + k)) * simd::all(side),
-            (simd::all(p.z) - simd::load(z_ + k)) * simd::all(side)};
   }
 
   void estimate_alone(std::size_t k) {
@@ -11108,6 +11140,11 @@ class NormalEstimator {
 
   [[nodiscard]] Point place(std::size_t k) const noexcept { return {x_[k], y_[k], z_[k]}; }
 
+  /// Of a register.
+  [[nodiscard]] PointLanes places(std::size_t k) const noexcept {
+    return {simd::load(x_ + k), simd::load(y_ + k), simd::load(z_ + k)};
+  }
+
   [[nodiscard]] bool are_in_one_place(std::size_t first, std::size_t count) const noexcept {
     for (std::size_t k = first + 1; k < first + count; ++k) {
       if (!(x_[k] == x_[first] && y_[k] == y_[first] && z_[k] == z_[first])) return false;
@@ -11119,6 +11156,7 @@ class NormalEstimator {
   const Search& search_;
   const Radius radius_;
   const Viewpoint viewpoint_;
+  const std::uint8_t* const needed_;  // one per point; null: all are
   NormalMemory& memory_;
   SurfaceNormal* const normals_;
   std::size_t index_[group];
@@ -11137,6 +11175,38 @@ inline namespace SHORTSHOT_CODE {
 
 /// Points that a thread takes at a time: about a quarter of a millisecond of work.
 inline constexpr std::size_t normal_block = 512;
+
+/// estimate_normals() where `needed` is not 0; null: everywhere.
+template <class Search, class Threads>
+[[nodiscard]] Status estimate_needed_normals(const CloudView& cloud, const Search& search, Radius radius,
+                                             const Viewpoint& viewpoint, const std::uint8_t* needed,
+                                             std::vector<SurfaceNormal>& normals, Threads& threads) {
+  normals.clear();
+  Status status = validate_search(cloud, search);
+  if (status == Status::ok) status = validate(radius);
+  if (status == Status::ok) status = validate(viewpoint);
+  if (status == Status::ok && all_are_coarse(cloud, radius)) status = Status::coarse_coordinates;
+  if (status != Status::ok) return status;
+
+  auto&& executor = executor_of(threads, (cloud.size + normal_block - 1) / normal_block);
+  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
+  std::vector<NormalMemory> memories(team);
+  for (NormalMemory& memory : memories) memory.workspace.reserve(1024);
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  normals.assign(cloud.size, {none, none, none});  // and so they stay where an executor throws before their turn
+  for_blocks(executor, team, cloud.size, normal_block, [&](std::size_t thread, std::size_t begin, std::size_t end) {
+    NormalEstimator<Search>(cloud, search, radius, viewpoint, needed, memories[thread], normals.data())
+        .estimate(begin, end);
+  });
+  bool other_cloud = false;
+  for (const NormalMemory& memory : memories) other_cloud = other_cloud || memory.other_cloud;
+  const auto has_one = [](const SurfaceNormal& n) { return n.x == n.x; };
+  if (!other_cloud && std::none_of(normals.begin(), normals.end(), has_one)) {
+    other_cloud = !finds_a_point(cloud, search, radius, memories[0].workspace);
+  }
+  if (other_cloud) normals.clear();
+  return other_cloud ? Status::other_cloud : Status::ok;
+}
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
@@ -11169,37 +11239,813 @@ template <class Search, class Threads = unsigned>
 [[nodiscard]] Status estimate_normals(const CloudView& cloud, const Search& search, Radius radius,
                                       const Viewpoint& viewpoint, std::vector<SurfaceNormal>& normals,
                                       Threads&& threads = 1u) {
-  normals.clear();
-  Status status = detail::validate_search(cloud, search);
-  if (status == Status::ok) status = validate(radius);
-  if (status == Status::ok) status = validate(viewpoint);
-  if (status == Status::ok && detail::all_are_coarse(cloud, radius)) status = Status::coarse_coordinates;
-  if (status != Status::ok) return status;
+  return detail::estimate_needed_normals(cloud, search, radius, viewpoint, nullptr, normals, threads);
+}
 
-  auto&& executor = detail::executor_of(threads, (cloud.size + detail::normal_block - 1) / detail::normal_block);
-  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-  std::vector<detail::NormalMemory> memories(team);
-  for (detail::NormalMemory& memory : memories) memory.workspace.reserve(1024);
-  constexpr float none = std::numeric_limits<float>::quiet_NaN();
-  normals.assign(cloud.size, {none, none, none});  // and so they stay where an executor throws before their turn
-  detail::for_blocks(
-      executor, team, cloud.size, detail::normal_block, [&](std::size_t thread, std::size_t begin, std::size_t end) {
-        detail::NormalEstimator<Search>(cloud, search, radius, viewpoint, memories[thread], normals.data())
-            .estimate(begin, end);
-      });
-  bool other_cloud = false;
-  for (const detail::NormalMemory& memory : memories) other_cloud = other_cloud || memory.other_cloud;
-  const auto has_one = [](const SurfaceNormal& n) { return n.x == n.x; };
-  if (!other_cloud && std::none_of(normals.begin(), normals.end(), has_one)) {
-    other_cloud = !detail::finds_a_point(cloud, search, radius, memories[0].workspace);
-  }
-  if (other_cloud) normals.clear();
-  return other_cloud ? Status::other_cloud : Status::ok;
+/// The same where normals are needed: `needed` has a number for each point (see mark_neighbors()). Points where it is
+/// not 0 have the normals that they have among those of the whole cloud, bit for bit; others may have NaN. sizes_differ
+/// if there are not as many.
+template <class Search, class Threads = unsigned>
+[[nodiscard]] Status estimate_normals(const CloudView& cloud, const Search& search, Radius radius,
+                                      const Viewpoint& viewpoint, const std::vector<std::uint8_t>& needed,
+                                      std::vector<SurfaceNormal>& normals, Threads&& threads = 1u) {
+  normals.clear();
+  const Status usable = detail::validate_search(cloud, search);
+  if (usable != Status::ok) return usable;
+  if (needed.size() != cloud.size) return Status::sizes_differ;
+  return detail::estimate_needed_normals(cloud, search, radius, viewpoint, needed.data(), normals, threads);
 }
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_BATCH_ESTIMATE_NORMALS_HPP
+
+// shortshot/batch/estimate_image_normals.hpp: the surface normals of a depth image, fast. Hosted only: allocates,
+// starts threads.
+#ifndef SHORTSHOT_BATCH_ESTIMATE_IMAGE_NORMALS_HPP
+#define SHORTSHOT_BATCH_ESTIMATE_IMAGE_NORMALS_HPP
+
+// shortshot/batch/image_geometry.hpp: how many pixels of a depth image a radius in meters spans. Hosted only.
+#ifndef SHORTSHOT_BATCH_IMAGE_GEOMETRY_HPP
+#define SHORTSHOT_BATCH_IMAGE_GEOMETRY_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Windows reach from 1 pixel to so many beyond their middle. No sum over a window leaves 32 bits then: coordinates
+/// are in 32nds of the radius, and those of pixels side by side differ by a radius at most, or there is an edge.
+inline constexpr std::size_t widest_window = 29;
+
+/// Of an image whose camera is fitted to its points.
+struct ImageGeometry {
+  float columns;  ///< of half a window, times the depth
+  float rows;
+  float slope;    ///< how much the depth of the steepest surface changes from pixel to pixel, as a share of it
+  float nearest;  ///< of all depths
+
+  /// How many pixels a window reaches beyond its middle: squares with the second moments of a disc of the radius. A
+  /// square of 2 h + 1 pixels has h (h + 1) / 3, a disc a quarter of the square of its own.
+  [[nodiscard]] static simd::F32 half_of_window(float extent, simd::F32 depth) noexcept {
+    const simd::F32 half = simd::all(extent) / depth - simd::all(0.5f);
+    const simd::F32 bounded = simd::max(simd::min(half, simd::all(static_cast<float>(widest_window))), simd::all(1.0f));
+    return simd::to_whole(bounded);
+  }
+
+  [[nodiscard]] std::size_t most_rows() const noexcept {
+    return static_cast<std::size_t>(simd::largest(half_of_window(rows, simd::all(nearest))));
+  }
+};
+
+/// Calls add(column, row, x / z, y / z) for every `step`-th pixel that is no hole.
+template <class Add>
+inline void for_pixels(const CloudView& cloud, std::size_t step, Add add) noexcept {
+  for (std::size_t i = 0; i < cloud.size; i += step) {
+    const Point p = point(cloud, i);
+    if (!is_finite(p) || p.z == 0.0f) continue;
+    const std::size_t row = i / cloud.width;
+    add(static_cast<float>(i - row * cloud.width), static_cast<float>(row), p.x / p.z, p.y / p.z);
+  }
+}
+
+/// The camera by every `step`-th point. not_organized: they deviate from every pinhole by more than a quarter of the
+/// image, as in OrganizedSearch.
+[[nodiscard]] inline Status fit_camera(const CloudView& cloud, std::size_t step, Projection& columns,
+                                       Projection& rows) noexcept {
+  PinholeLine u_line{};
+  PinholeLine v_line{};
+  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
+    u_line.add_to_mean(x, u);
+    v_line.add_to_mean(y, v);
+  });
+  if (!u_line.is_finite() || !v_line.is_finite()) return Status::not_organized;
+  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
+    u_line.add_to_slope(x, u);
+    v_line.add_to_slope(y, v);
+  });
+  if (!u_line.is_finite() || !v_line.is_finite()) return Status::not_organized;
+  columns = u_line.projection();
+  rows = v_line.projection();
+  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
+    columns.widen(x, u);
+    rows.widen(y, v);
+  });
+  const bool is_pinhole = columns.error <= 0.25f * static_cast<float>(cloud.width) &&
+                          rows.error <= 0.25f * static_cast<float>(cloud.height);
+  return is_pinhole ? Status::ok : Status::not_organized;
+}
+
+/// empty_cloud; not_organized: not an image, or not a pinhole camera's, which is looked for in some thousand of the
+/// points.
+[[nodiscard]] inline Status measure_image(const CloudView& cloud, Radius radius, ImageGeometry& geometry) noexcept {
+  if (cloud.height < 2 || cloud.width < 2 || cloud.size / cloud.width != cloud.height ||
+      cloud.size % cloud.width != 0) {
+    return Status::not_organized;
+  }
+  simd::F32 farthest = simd::all(0.0f);
+  simd::F32 behind = simd::all(0.0f);
+  simd::F32 nearest = simd::all(3e38f);
+  for_each_valid_register(cloud, [&](std::size_t, const PointLanes& p, simd::Mask) {
+    farthest = simd::max(farthest, p.z);
+    behind = simd::max(behind, simd::all(0.0f) - p.z);
+    nearest = simd::min(nearest, select(p.z != simd::all(0.0f), simd::abs(p.z), simd::all(3e38f)));
+  });
+  const bool in_front = simd::largest(farthest) > 0.0f;
+  const bool at_back = simd::largest(behind) > 0.0f;
+  if (!in_front && !at_back) return Status::empty_cloud;
+  if (in_front && at_back) return Status::not_organized;
+
+  constexpr std::size_t most_looked_at = 4096;
+  const std::size_t step = cloud.size / most_looked_at | 1;  // odd: it meets all columns of most widths
+  Projection columns{};
+  Projection rows{};
+  Status status = fit_camera(cloud, step, columns, rows);
+  if (!(columns.focal * rows.focal != 0.0f)) status = fit_camera(cloud, 1, columns, rows);
+  if (status != Status::ok) return status;
+  constexpr float half_of_square = 0.8660254f;  // of a disc's radius
+  constexpr float steepest = 8.0f;              // 83 degrees: noise and steps of the depth look steep, too
+  const float reach = radius.value * half_of_square;
+  const float focal[2] = {__builtin_fabsf(columns.focal), __builtin_fabsf(rows.focal)};
+  const float shorter = focal[0] < focal[1] ? focal[0] : focal[1];
+  geometry = {reach * focal[0], reach * focal[1], shorter > steepest ? steepest / shorter : 1.0f,
+              0.0f - simd::largest(simd::all(0.0f) - nearest)};
+  return Status::ok;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_IMAGE_GEOMETRY_HPP
+
+// shortshot/batch/image_sums.hpp: sums over any window of a depth image, at the same cost for all sizes. Hosted only:
+// allocates.
+#ifndef SHORTSHOT_BATCH_IMAGE_SUMS_HPP
+#define SHORTSHOT_BATCH_IMAGE_SUMS_HPP
+
+// shortshot/batch/pixel_sums.hpp: sums over the pixels of a window, modulo 2^32. Hosted only.
+//
+// A window's sum is made of four sums over rectangles that begin at the image's corner. Those may be as large as they
+// like: they wrap, and so do their differences, and what is left, which does not fit 32 bits only if the window's own
+// sum does not, is exact. So is what comes of moving the origin of moments afterwards.
+#ifndef SHORTSHOT_BATCH_PIXEL_SUMS_HPP
+#define SHORTSHOT_BATCH_PIXEL_SUMS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Integers that may wrap: in each lane, and four side by side.
+using WrappingLanes = std::uint32_t __attribute__((vector_size(4 * simd::lanes)));
+inline constexpr int lane_count = static_cast<int>(simd::lanes);
+using WrappingQuad = std::uint32_t __attribute__((vector_size(16)));
+
+template <class To, class From>
+[[nodiscard, gnu::always_inline]] inline To same_bits(const From& from) noexcept {
+  static_assert(sizeof(To) == sizeof(From), "of one size");
+  To to;
+  std::memcpy(&to, &from, sizeof to);
+  return to;
+}
+
+/// What pixels add up to.
+struct PixelSums {
+  static constexpr int quads = 3;
+  static constexpr int kinds = 4 * quads;
+  WrappingQuad places;   ///< count, x, y, z
+  WrappingQuad squares;  ///< xx, xy, xz, yy
+  WrappingQuad others;   ///< yz, zz, edges, xx + yy + zz
+
+  [[nodiscard, gnu::always_inline]] WrappingQuad& quad(int k) noexcept {
+    return k == 0 ? places : k == 1 ? squares : others;
+  }
+};
+
+[[nodiscard, gnu::always_inline]] inline PixelSums operator+(const PixelSums& a, const PixelSums& b) noexcept {
+  return {a.places + b.places, a.squares + b.squares, a.others + b.others};
+}
+[[nodiscard, gnu::always_inline]] inline PixelSums operator-(const PixelSums& a, const PixelSums& b) noexcept {
+  return {a.places - b.places, a.squares - b.squares, a.others - b.others};
+}
+
+[[nodiscard, gnu::always_inline]] inline bool has_edges(const PixelSums& sums) noexcept { return sums.others[2] != 0; }
+
+/// Points of a register in whole numbers, zeros where there is none.
+struct PixelLanes {
+  simd::Mask valid;
+  simd::F32 x, y, z;
+};
+
+[[nodiscard, gnu::always_inline]] inline WrappingLanes wrapping(simd::F32 whole) noexcept {
+  return same_bits<WrappingLanes>(round_to_int(whole));
+}
+
+/// The terms of each lane's pixel.
+[[gnu::always_inline]] inline void terms_of(const PixelLanes& p, simd::Mask edges,
+                                            PixelSums (&terms)[simd::lanes]) noexcept {
+  const WrappingLanes x = wrapping(p.x);
+  const WrappingLanes y = wrapping(p.y);
+  const WrappingLanes z = wrapping(p.z);
+  const WrappingLanes xx = x * x;
+  const WrappingLanes yy = y * y;
+  const WrappingLanes zz = z * z;
+  const auto number = [](simd::Mask m) { return same_bits<WrappingLanes>(increment(m, simd::all_int(0))); };
+  const WrappingLanes of[PixelSums::kinds] = {number(p.valid), x,           y, z, xx, x * y, x * z, yy, y * z, zz,
+                                              number(edges),   xx + yy + zz};
+  unroll<PixelSums::quads>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+    const auto kind = [&](int i) { return same_bits<simd::I32>(of[4 * k + i]); };
+    simd::Quad quads[simd::lanes];
+    transpose(kind(0), kind(1), kind(2), kind(3), quads);
+    unroll<lane_count>([&](auto lane)
+                           SHORTSHOT_INLINE_LAMBDA { terms[lane].quad(k) = same_bits<WrappingQuad>(quads[lane]); });
+  });
+}
+
+/// Each kind of sum in a register.
+struct SumLanes {
+  WrappingLanes of[PixelSums::kinds];
+};
+
+/// A template, so that the branch of several lanes is none of one lane's.
+template <std::size_t Lanes>
+[[nodiscard, gnu::always_inline]] inline SumLanes lanes_of(PixelSums* sums) noexcept {
+  SumLanes result;
+  if constexpr (Lanes == 1) {
+    std::memcpy(&result, sums, sizeof result);
+  } else {
+    // In each part of four lanes, four of whose kinds become four registers' parts.
+    constexpr int count = static_cast<int>(Lanes / 4);
+    unroll<PixelSums::quads>([&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      struct Parts {
+        WrappingQuad of[Lanes / 4];
+      };
+      const auto row = [&](int i) SHORTSHOT_INLINE_LAMBDA {
+        Parts parts;
+        unroll<count>([&](auto part) { parts.of[part] = sums[i + 4 * part].quad(k); });
+        return same_bits<simd::I32>(parts);
+      };
+      simd::Quad quads[Lanes];
+      transpose(row(0), row(1), row(2), row(3), quads);
+      unroll<4>([&](auto i) SHORTSHOT_INLINE_LAMBDA {
+        Parts parts;
+        unroll<count>([&](auto part) { parts.of[part] = same_bits<WrappingQuad>(quads[i + 4 * part]); });
+        result.of[4 * k + i] = same_bits<WrappingLanes>(parts);
+      });
+    });
+  }
+  return result;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_PIXEL_SUMS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// A window's first and past its last column and row.
+struct Window {
+  std::size_t left, right, top, bottom;
+};
+
+/// A pixel's point in whole numbers.
+struct WholePoint {
+  std::int32_t x, y, z;
+};
+
+/// The whole numbers that a radius counts for: what is lost in rounding means nothing next to any camera's noise.
+inline constexpr std::int32_t steps_of_radius = 32;
+
+/// Points of a register of pixels; zeros where they are not finite, which no comparison shall meet.
+struct PixelPoints {
+  PointLanes at;
+  simd::Mask valid;
+};
+
+/// `count` from index `first` on, at most a register.
+[[nodiscard, gnu::always_inline]] inline PixelPoints read_pixels(const CloudView& cloud, std::size_t first,
+                                                                 std::size_t count) noexcept {
+  const bool whole = count >= simd::lanes;
+  const PointLanes p =
+      whole ? read_lanes(cloud.points, [=](std::size_t lane) { return first + lane; })
+            : read_lanes(cloud.points, [=](std::size_t lane) { return first + (lane < count ? lane : count - 1); });
+  const simd::Mask valid = whole ? is_finite(p) : is_finite(p) & simd::first(count);
+  return {{keep(valid, p.x), keep(valid, p.y), keep(valid, p.z)}, valid};
+}
+
+/// Points in these steps. Those that float does not hold as finely are none, and those in the camera's own plane: many
+/// drivers write (0, 0, 0) for "no measurement".
+[[nodiscard, gnu::always_inline]] inline PixelLanes in_steps(const PixelPoints& p, simd::F32 scale) noexcept {
+  const simd::F32 x = p.at.x * scale;
+  const simd::F32 y = p.at.y * scale;
+  const simd::F32 z = p.at.z * scale;
+  const simd::F32 most = simd::all(4194303.0f);  // what to_whole() can take
+  const simd::Mask usable =
+      p.valid & (p.at.z != simd::all(0.0f)) & (simd::max(simd::max(simd::abs(x), simd::abs(y)), simd::abs(z)) < most);
+  return {usable, to_whole(keep(usable, x)), to_whole(keep(usable, y)), to_whole(keep(usable, z))};
+}
+
+/// Do the points of a part of a window lie within the radius of the window's middle, by root mean square? Where the
+/// part has an edge itself, half of the squares must do.
+struct Nearness {
+  std::uint32_t x, y, z, squares;  ///< of the middle
+
+  [[nodiscard, gnu::always_inline]] bool holds(const PixelSums& part) const noexcept {
+    const WrappingQuad& places = part.places;
+    const std::uint32_t count = places[0];
+    const std::uint32_t along = places[1] * x + places[2] * y + places[3] * z;
+    const std::uint32_t distances = part.others[3] + count * squares - 2 * along;
+    // Squares of points very far from the middle wrap; but then their mean depth is far from its, too.
+    const std::uint32_t within = count * static_cast<std::uint32_t>(steps_of_radius);
+    const std::uint32_t limit = within * static_cast<std::uint32_t>(steps_of_radius);
+    return distances <= (has_edges(part) ? limit / 2 : limit) && places[3] - count * z + within <= 2 * within;
+  }
+};
+
+/// Rows of sums over all pixels above and to the left of a pixel, in a ring.
+struct SummedRows {
+  const PixelSums* rows;
+  std::size_t last_slot;
+  std::size_t stride;
+
+  [[nodiscard, gnu::always_inline]] PixelSums over(const Window& w) const noexcept {
+    const PixelSums* const top = row(w.top);
+    const PixelSums* const bottom = row(w.bottom);
+    return (bottom[w.right] - bottom[w.left]) - (top[w.right] - top[w.left]);
+  }
+
+  /// Over those of nine parts of a window that are near its middle: where there are edges, on this side of them.
+  [[nodiscard]] PixelSums over_near_parts(const Window& window, const Window& middle,
+                                          const WholePoint& center) const noexcept {
+    const std::uint32_t x = static_cast<std::uint32_t>(center.x);
+    const std::uint32_t y = static_cast<std::uint32_t>(center.y);
+    const std::uint32_t z = static_cast<std::uint32_t>(center.z);
+    const Nearness near{x, y, z, x * x + y * y + z * z};
+    const std::size_t bounds[4] = {window.top, middle.top, middle.bottom, window.bottom};
+    PixelSums sums{};
+    for (std::size_t r = 0; r < 3; ++r) {
+      const PixelSums* const top = row(bounds[r]);
+      const PixelSums* const bottom = row(bounds[r + 1]);
+      PixelSums left = bottom[window.left] - top[window.left];
+      const auto add_part = [&](std::size_t end) SHORTSHOT_INLINE_LAMBDA {
+        const PixelSums right = bottom[end] - top[end];
+        const PixelSums part = right - left;
+        if (near.holds(part)) sums = sums + part;
+        left = right;
+      };
+      add_part(middle.left);
+      add_part(middle.right);
+      add_part(window.right);
+    }
+    return sums;
+  }
+
+ private:
+  [[nodiscard, gnu::always_inline]] const PixelSums* row(std::size_t r) const noexcept {
+    return rows + (r & last_slot) * stride;
+  }
+};
+
+/// Sums over all pixels above and to the left of each pixel, for as many rows as the highest window has; rows are added
+/// as the windows move down. Several of them may work on bands of one image: any window has the same sums in each.
+class ImageSums {
+ public:
+  /// Room for an image of so many columns: 48 bytes for each pixel of 64 rows, if it has not had it before.
+  void reserve(std::size_t columns) {
+    const std::size_t most = stride_of(columns);
+    rows_.resize(std::max(rows_.size(), most_slots * most));
+    for (std::vector<float>* depths : {&depths_, &depths_above_}) depths->resize(std::max(depths->size(), most));
+  }
+
+  /// For windows of rows from `first` on, which reach `reach` rows beyond their middle; `slope` is that of
+  /// ImageGeometry. There must be room.
+  void begin(const CloudView& cloud, float scale, float slope, std::size_t first, std::size_t reach) noexcept {
+    cloud_ = cloud;
+    scale_ = scale;
+    slope_ = slope;
+    stride_ = stride_of(cloud.width);
+    slots_ = 4;
+    while (slots_ < 2 * reach + 2) slots_ *= 2;
+    next_ = first > reach ? first - reach : 0;
+    if (next_ > 0) {
+      --next_;
+      add_row(false);
+    }
+    std::fill_n(row(next_), stride_, PixelSums{});
+  }
+
+  /// Makes sure that all rows above `end` are there.
+  void add_rows(std::size_t end) noexcept {
+    while (next_ < end) add_row(true);
+  }
+
+  [[nodiscard, gnu::always_inline]] SummedRows rows() const noexcept { return {rows_.data(), slots_ - 1, stride_}; }
+
+ private:
+  static constexpr std::size_t most_slots = 64;
+  static_assert(most_slots >= 2 * widest_window + 2, "the highest window");
+  static constexpr float no_depth = 1e9f;  // of rows without a point: an edge to all others
+
+  /// Whole registers, and what is before the first column.
+  [[nodiscard]] static std::size_t stride_of(std::size_t columns) noexcept {
+    return (columns + simd::lanes - 1) / simd::lanes * simd::lanes + 1;
+  }
+
+  [[nodiscard]] PixelSums* row(std::size_t r) noexcept { return rows_.data() + (r & (slots_ - 1)) * stride_; }
+
+  [[nodiscard]] PixelLanes read_register(std::size_t column) const noexcept {
+    const std::size_t left = std::min(simd::lanes, cloud_.width - column);
+    return in_steps(read_pixels(cloud_, next_ * cloud_.width + column, left), simd::all(scale_));
+  }
+
+  /// The depth that a hole at the row's beginning has: the first one that there is.
+  [[nodiscard]] float first_depth() const noexcept {
+    for (std::size_t column = 0; column < cloud_.width; column += simd::lanes) {
+      const PixelLanes p = read_register(column);
+      if (!any(p.valid)) continue;
+      float z[simd::lanes];
+      store(z, p.z);
+      for (const float depth : z) {
+        if (depth != 0.0f) return depth;
+      }
+    }
+    return no_depth;
+  }
+
+  /// Depths of a register, and those of holes: what is to the left of them.
+  [[nodiscard]] static simd::F32 without_holes(const PixelLanes& p, float& last) noexcept {
+    float z[simd::lanes];
+    store(z, p.z);
+    if (!every(p.valid)) {
+      float valid[simd::lanes];
+      store(valid, keep(p.valid, simd::all(1.0f)));
+      for (std::size_t lane = 0; lane < simd::lanes; ++lane) {
+        if (valid[lane] == 0.0f) z[lane] = lane == 0 ? last : z[lane - 1];
+      }
+    }
+    last = z[simd::lanes - 1];
+    return simd::load(z);
+  }
+
+  /// The next row of the image; only its depths, if `with_sums` is false. An edge is where the depth differs from that
+  /// to the left or that above by more than the radius and more than any slope does, holes filled with what is to the
+  /// left.
+  void add_row(bool with_sums) noexcept {
+    std::swap(depths_, depths_above_);
+    float last = first_depth();
+    depths_[0] = last;
+    const bool is_first = next_ == 0;
+    const PixelSums* above = row(next_) + 1;
+    PixelSums* to = row(next_ + 1);
+    *to++ = PixelSums{};
+    PixelSums sums{};
+    for (std::size_t column = 0; column < cloud_.width; column += simd::lanes) {
+      const PixelLanes p = read_register(column);
+      const simd::F32 depth = without_holes(p, last);
+      simd::store(depths_.data() + column + 1, depth);
+      if (!with_sums) continue;
+      const simd::F32 over = is_first ? depth : simd::load(depths_above_.data() + column + 1);
+      const simd::F32 beside = simd::load(depths_.data() + column);
+      PixelSums terms[simd::lanes];
+      const simd::F32 step =
+          simd::max(simd::abs(depth) * simd::all(slope_), simd::all(static_cast<float>(steps_of_radius)));
+      terms_of(p, simd::max(simd::abs(depth - beside), simd::abs(depth - over)) > step, terms);
+      unroll<lane_count>([&](auto lane) SHORTSHOT_INLINE_LAMBDA {
+        sums = sums + terms[lane];
+        *to++ = sums + *above++;
+      });
+    }
+    ++next_;
+  }
+
+  CloudView cloud_{};
+  float scale_ = 0.0f;
+  float slope_ = 0.0f;               // the steepest one, as a share of the depth from pixel to pixel
+  std::vector<PixelSums> rows_;      // a ring
+  std::vector<float> depths_;        // of the last row: one before the first column, then all
+  std::vector<float> depths_above_;  // of the one before
+  std::size_t stride_ = 0;
+  std::size_t slots_ = 0;
+  std::size_t next_ = 0;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_IMAGE_SUMS_HPP
+
+// shortshot/batch/plane_of_sums.hpp: the normals of planes through the pixels of windows. Hosted only.
+#ifndef SHORTSHOT_BATCH_PLANE_OF_SUMS_HPP
+#define SHORTSHOT_BATCH_PLANE_OF_SUMS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// The upper triangle of a symmetric matrix in each lane.
+struct SymmetricTriangle {
+  simd::F32 xx, xy, xz, yy, yz, zz;
+
+  [[nodiscard]] simd::F32 trace() const noexcept { return xx + yy + zz; }
+};
+
+[[nodiscard, gnu::always_inline]] inline SymmetricTriangle operator*(const SymmetricTriangle& m,
+                                                                     simd::F32 factor) noexcept {
+  return {m.xx * factor, m.xy * factor, m.xz * factor, m.yy * factor, m.yz * factor, m.zz * factor};
+}
+
+/// Its eigenvectors are those of the matrix, the products of the other two's eigenvalues its eigenvalues.
+[[nodiscard, gnu::always_inline]] inline SymmetricTriangle adjugate(const SymmetricTriangle& m) noexcept {
+  return {m.yy * m.zz - m.yz * m.yz, m.xz * m.yz - m.xy * m.zz, m.xy * m.yz - m.xz * m.yy,
+          m.xx * m.zz - m.xz * m.xz, m.xy * m.xz - m.xx * m.yz, m.xx * m.yy - m.xy * m.xy};
+}
+
+[[nodiscard, gnu::always_inline]] inline SymmetricTriangle square(const SymmetricTriangle& m) noexcept {
+  return {m.xx * m.xx + m.xy * m.xy + m.xz * m.xz, m.xx * m.xy + m.xy * m.yy + m.xz * m.yz,
+          m.xx * m.xz + m.xy * m.yz + m.xz * m.zz, m.xy * m.xy + m.yy * m.yy + m.yz * m.yz,
+          m.xy * m.xz + m.yy * m.yz + m.yz * m.zz, m.xz * m.xz + m.yz * m.yz + m.zz * m.zz};
+}
+
+/// How points scatter about their centroid, times their number, of sums about an origin that may be far away: they are
+/// moved to `center`, which lies among the points, before they become floats.
+[[nodiscard, gnu::always_inline]] inline SymmetricTriangle scatter_of(const SumLanes& sums,
+                                                                      const WrappingLanes (&center)[3]) noexcept {
+  const auto to_floats = [](WrappingLanes v) { return to_float(same_bits<simd::I32>(v)); };
+  const WrappingLanes(&of)[PixelSums::kinds] = sums.of;
+  const WrappingLanes moved[3] = {of[1] - of[0] * center[0], of[2] - of[0] * center[1], of[3] - of[0] * center[2]};
+  const simd::F32 weight = simd::all(1.0f) / simd::max(to_floats(of[0]), simd::all(1.0f));
+  const auto entry = [&](int a, int b, int kind) SHORTSHOT_INLINE_LAMBDA {
+    const WrappingLanes about_center = a == b ? of[kind] - center[a] * (of[1 + a] + moved[a])
+                                              : of[kind] - center[a] * of[1 + b] - center[b] * moved[a];
+    return to_floats(about_center) - to_floats(moved[a]) * (to_floats(moved[b]) * weight);
+  };
+  return {entry(0, 0, 4), entry(0, 1, 5), entry(0, 2, 6), entry(1, 1, 7), entry(1, 2, 8), entry(2, 2, 9)};
+}
+
+/// A direction in each lane, and where there is one.
+struct DirectionLanes {
+  PointLanes direction;
+  simd::Mask exists;
+};
+
+/// Along which `members` points scatter least: unit vectors; none for fewer than three, or if they lie on a line within
+/// a step of whole numbers. The adjugate is the inverse but for a factor: its powers' columns turn to it, as in a power
+/// iteration. Off by the fourth power of how much less the points scatter along it than along the next direction.
+[[nodiscard, gnu::always_inline]] inline DirectionLanes least_scatter(const SymmetricTriangle& scatter,
+                                                                      simd::F32 members) noexcept {
+  using simd::all;
+  using simd::F32;
+  const F32 extent = simd::max(scatter.trace(), all(1.0f));
+  SymmetricTriangle power = adjugate(scatter * (all(1.0f) / extent));
+  const F32 second = power.trace() * extent;  // the second eigenvalue, or a little more
+  power = square(square(power * (all(1.0f) / simd::max(power.trace(), all(1e-12f)))));
+  const F32 trace = power.trace();  // from a 27th to 1, if the sums did not wrap
+  const simd::Mask exists = (members > all(2.5f)) & (second > members) & (trace > all(0.015625f)) & (trace < all(2.0f));
+
+  const simd::Mask y_leads = power.yy > power.xx;
+  const F32 leading = simd::max(power.xx, power.yy);
+  const simd::Mask z_leads = power.zz > leading;
+  const auto column = [&](F32 of_x, F32 of_y, F32 of_z)
+                          SHORTSHOT_INLINE_LAMBDA { return select(z_leads, of_z, select(y_leads, of_y, of_x)); };
+  const F32 x = column(power.xx, power.xy, power.xz);
+  const F32 y = column(power.xy, power.yy, power.yz);
+  const F32 z = column(power.xz, power.yz, power.zz);
+  const F32 shortened = all(1.0f) / simd::sqrt(simd::max(x * x + y * y + z * z, all(1e-30f)));
+  return {{x * shortened, y * shortened, z * shortened}, exists};
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BATCH_PLANE_OF_SUMS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Fewest rows that a thread takes: it sums up those above and below them, too.
+inline constexpr std::size_t rows_of_band = 32;
+
+/// What an image is asked for.
+struct ImageTask {
+  CloudView cloud;
+  Radius radius;
+  Viewpoint viewpoint;
+  ImageGeometry geometry;
+  const std::uint8_t* needed;  // one per point; null: all are
+};
+
+/// Normals of rows of an image, on one thread.
+class ImageBand {
+ public:
+  void reserve(std::size_t columns) { sums_.reserve(columns); }
+
+  /// Of rows [begin, end). There must be room for the image's columns.
+  void estimate(const ImageTask& task, std::size_t begin, std::size_t end, SurfaceNormal* normals) noexcept {
+    scale_ = static_cast<float>(steps_of_radius) / task.radius.value;
+    const std::size_t reach = task.geometry.most_rows();
+    sums_.begin(task.cloud, scale_, task.geometry.slope, begin, reach);
+    for (std::size_t row = begin; row < end; ++row) {
+      sums_.add_rows(std::min(task.cloud.height, row + reach + 1));
+      for (std::size_t column = 0; column < task.cloud.width; column += simd::lanes) {
+        estimate_register(task, row, column, normals + row * task.cloud.width + column);
+      }
+    }
+  }
+
+ private:
+  /// Columns or rows of the windows around a register of pixels: the first, past the last, and how many they reach
+  /// beyond the middle.
+  struct Spans {
+    std::uint32_t first[simd::lanes], end[simd::lanes], half[simd::lanes];
+  };
+
+  /// Those of holes are empty.
+  [[nodiscard, gnu::always_inline]] static Spans spans(simd::F32 middle, simd::F32 half, std::size_t size,
+                                                       simd::Mask valid) noexcept {
+    Spans result;
+    const simd::F32 first = simd::max(middle - half, simd::all(0.0f));
+    const simd::F32 end = simd::min(middle + half + simd::all(1.0f), simd::all(static_cast<float>(size)));
+    simd::store(result.first, round_to_int(first));
+    simd::store(result.end, round_to_int(select(valid, end, first)));
+    simd::store(result.half, round_to_int(half));
+    return result;
+  }
+
+  void estimate_register(const ImageTask& task, std::size_t row, std::size_t column,
+                         SurfaceNormal* normals) const noexcept {
+    const CloudView& cloud = task.cloud;
+    const std::size_t count = std::min(simd::lanes, cloud.width - column);
+    const std::size_t first = row * cloud.width + column;
+    const PixelPoints points = read_pixels(cloud, first, count);
+    const PixelLanes pixels = in_steps(points, simd::all(scale_));
+    constexpr float none = std::numeric_limits<float>::quiet_NaN();
+    if (!any(pixels.valid) || !is_needed(task, first, count)) {
+      std::fill_n(normals, count, SurfaceNormal{none, none, none});
+      return;
+    }
+    const SumLanes sums = sums_of_windows(task, row, column, pixels, simd::abs(points.at.z));
+    const WrappingLanes center[3] = {wrapping(pixels.x), wrapping(pixels.y), wrapping(pixels.z)};
+    const DirectionLanes least = least_scatter(scatter_of(sums, center), to_float(same_bits<simd::I32>(sums.of[0])));
+    const PointLanes found = turned(least, pixels.valid, directions(task.viewpoint, points.at));
+    if (count == simd::lanes) {
+      store(normals, found);
+    } else {
+      SurfaceNormal few[simd::lanes];
+      store(few, found);
+      std::copy_n(few, count, normals);
+    }
+  }
+
+  /// Towards the viewpoint; NaN where there is none.
+  [[nodiscard, gnu::always_inline]] static PointLanes turned(const DirectionLanes& found, simd::Mask valid,
+                                                             const PointLanes& towards) noexcept {
+    const PointLanes& n = found.direction;
+    const simd::F32 none = simd::all(std::numeric_limits<float>::quiet_NaN());
+    const simd::Mask exists = found.exists & valid;
+    const simd::Mask away = (n.x * towards.x + n.z * towards.z) + n.y * towards.y < simd::all(0.0f);
+    const auto component = [&](simd::F32 v) {
+      return select(exists, negate(away, v) + simd::all(0.0f), none);  // no negative zeros
+    };
+    return {component(n.x), component(n.y), component(n.z)};
+  }
+
+  [[nodiscard]] static bool is_needed(const ImageTask& task, std::size_t first, std::size_t count) noexcept {
+    if (task.needed == nullptr) return true;
+    const std::uint8_t* const marks = task.needed + first;
+    return std::any_of(marks, marks + count, [](std::uint8_t mark) { return mark != 0; });
+  }
+
+  [[nodiscard, gnu::always_inline]] SumLanes sums_of_windows(const ImageTask& task, std::size_t row, std::size_t column,
+                                                             const PixelLanes& pixels, simd::F32 depth) const noexcept {
+    const ImageGeometry& geometry = task.geometry;
+    const simd::F32 safe = select(pixels.valid, depth, simd::all(1.0f));
+    const simd::F32 number = simd::from_lanes([](std::size_t lane) { return static_cast<float>(lane); });
+    const Spans columns = spans(simd::all(static_cast<float>(column)) + number,
+                                geometry.half_of_window(geometry.columns, safe), task.cloud.width, pixels.valid);
+    const Spans rows = spans(simd::all(static_cast<float>(row)), geometry.half_of_window(geometry.rows, safe),
+                             task.cloud.height, pixels.valid);
+    const SummedRows summed = sums_.rows();
+    PixelSums sums[simd::lanes];
+    unroll<lane_count>([&](auto lane) SHORTSHOT_INLINE_LAMBDA {
+      const Window window{columns.first[lane], columns.end[lane], rows.first[lane], rows.end[lane]};
+      sums[lane] = summed.over(window);
+      if (has_edges(sums[lane])) {
+        sums[lane] = near_parts(window, column + static_cast<std::size_t>(lane), columns.half[lane], row,
+                                rows.half[lane], pixels, lane);
+      }
+    });
+    return lanes_of<simd::lanes>(sums);
+  }
+
+  [[nodiscard, gnu::noinline]] PixelSums near_parts(const Window& window, std::size_t column, std::size_t half_columns,
+                                                    std::size_t row, std::size_t half_rows, const PixelLanes& pixels,
+                                                    int lane) const noexcept {
+    const std::size_t across = (2 * half_columns + 1) / 6;  // half of a third
+    const std::size_t along = (2 * half_rows + 1) / 6;
+    const Window middle{std::max(window.left, column - std::min(column, across)),
+                        std::min(window.right, column + across + 1), std::max(window.top, row - std::min(row, along)),
+                        std::min(window.bottom, row + along + 1)};
+    std::int32_t at[3][simd::lanes];
+    simd::store(at[0], round_to_int(pixels.x));
+    simd::store(at[1], round_to_int(pixels.y));
+    simd::store(at[2], round_to_int(pixels.z));
+    return sums_.rows().over_near_parts(window, middle, {at[0][lane], at[1][lane], at[2][lane]});
+  }
+
+  ImageSums sums_;
+  float scale_ = 0.0f;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// Estimates the normals of depth image after depth image, and owns the scratch memory that this takes.
+///
+/// For each thread 48 bytes a pixel of 64 rows, and the normals; with the same estimator and vector again, nothing,
+/// until an image is wider than those before it, or more threads work. Starting threads, however, costs small
+/// allocations of the C++ runtime's in every call; an executor has none.
+class ImageNormalEstimator {
+ public:
+  /// See the function estimate_image_normals() below.
+  template <class Threads = unsigned>
+  [[nodiscard]] Status estimate(const CloudView& cloud, Radius radius, const Viewpoint& viewpoint,
+                                std::vector<SurfaceNormal>& normals, Threads&& threads = 1u) {
+    return estimate_needed(cloud, radius, viewpoint, nullptr, normals, threads);
+  }
+
+  /// The same where normals are needed: `needed` has a number for each point (see mark_neighbors()), and points where
+  /// it is 0 may get NaN. sizes_differ if there are not as many.
+  template <class Threads = unsigned>
+  [[nodiscard]] Status estimate(const CloudView& cloud, Radius radius, const Viewpoint& viewpoint,
+                                const std::vector<std::uint8_t>& needed, std::vector<SurfaceNormal>& normals,
+                                Threads&& threads = 1u) {
+    if (validate(cloud) == Status::ok && needed.size() != cloud.size) {
+      normals.clear();
+      return Status::sizes_differ;
+    }
+    return estimate_needed(cloud, radius, viewpoint, needed.data(), normals, threads);
+  }
+
+ private:
+  template <class Threads>
+  [[nodiscard]] Status estimate_needed(const CloudView& cloud, Radius radius, const Viewpoint& viewpoint,
+                                       const std::uint8_t* needed, std::vector<SurfaceNormal>& normals,
+                                       Threads& threads) {
+    normals.clear();
+    detail::ImageTask task{cloud, radius, viewpoint, {}, needed};
+    Status status = validate(cloud);
+    if (status == Status::ok) status = validate(radius);
+    if (status == Status::ok) status = validate(viewpoint);
+    if (status == Status::ok) status = detail::measure_image(cloud, radius, task.geometry);
+    if (status == Status::ok && detail::all_are_coarse(cloud, radius)) status = Status::coarse_coordinates;
+    if (status != Status::ok) return status;
+
+    auto&& executor = detail::executor_of(threads, (cloud.height + detail::rows_of_band - 1) / detail::rows_of_band);
+    const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
+    if (bands_.size() < team) bands_.resize(team);
+    for (std::size_t t = 0; t < team; ++t) bands_[t].reserve(cloud.width);  // whichever thread gets work this time
+    constexpr float none = std::numeric_limits<float>::quiet_NaN();
+    normals.assign(cloud.size, {none, none, none});  // and so they stay where an executor throws before their turn
+    const std::size_t rows = std::max(detail::rows_of_band, (cloud.height + team - 1) / team);
+    detail::for_blocks(executor, team, cloud.height, rows, [&](std::size_t thread, std::size_t begin, std::size_t end) {
+      bands_[thread].estimate(task, begin, end, normals.data());
+    });
+    return Status::ok;
+  }
+
+  std::vector<detail::ImageBand> bands_;  // one per thread
+};
+
+/// The surface normal at each point of a depth image, at a cost that does not depend on how many neighbors it has: of a
+/// frame of 640 x 480, within 1 cm, a tenth of estimate_normals()' instructions, and no index. Not the same normals,
+/// but near them, 1 to 2 degrees on surfaces: bench/RESULTS.md says how near, by depth and by distance from an edge.
+///
+/// A normal is that of the plane through the points of a square window, whose sums come from running sums over the
+/// image, of points rounded to a 32nd of the radius. The window has the second moments of a disc of the radius that
+/// faces the camera at the point's depth, and at most 59 x 59 pixels. Where it has an edge (depths side by side, or
+/// across a hole, that differ by more than the radius and more than on any slope up to 83 degrees), those of its nine
+/// parts count whose points lie within the radius of the middle by root mean square; half of the square, if the part
+/// has an edge.
+///
+/// `cloud`      an image (width and height) that a pinhole camera took, in its own coordinates: z is the depth. Points
+///              that are not finite, or whose z is 0, are holes
+/// `radius`     what estimate_normals() would be given, in meters
+/// `viewpoint`  to which side of the surface normals point, as in estimate_normals()
+/// `normals`    one per point, all three components NaN where the point is a hole or has no normal: fewer than three
+///              points in the window, or all of them on a line within a 32nd of the radius
+/// `threads`    how many threads share the work, or an executor (see extract()); the result is the same, bit for bit,
+///              for any number
+///
+/// Statuses: empty_cloud, bad_view, bad_radius, bad_viewpoint (not finite), not_organized (height 1, width * height is
+/// not the size, points in front of and behind the camera, or points that deviate from every pinhole by more than a
+/// quarter of the image, as after moving the cloud into another coordinate system), coarse_coordinates (as in
+/// estimate_normals()); `normals` is empty then. Allocates what ImageNormalEstimator does, anew in every call. May
+/// throw what extract() may.
+template <class Threads = unsigned>
+[[nodiscard]] Status estimate_image_normals(const CloudView& cloud, Radius radius, const Viewpoint& viewpoint,
+                                            std::vector<SurfaceNormal>& normals, Threads&& threads = 1u) {
+  return ImageNormalEstimator().estimate(cloud, radius, viewpoint, normals, threads);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_BATCH_ESTIMATE_IMAGE_NORMALS_HPP
 
 // shortshot/batch/extract.hpp: many key points at once, in one call. Hosted only: allocates, starts threads.
 #ifndef SHORTSHOT_BATCH_EXTRACT_HPP
@@ -11641,6 +12487,52 @@ template <class D, class Search, class Key, class Threads = unsigned, class... O
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_BATCH_EXTRACT_HPP
+
+// shortshot/batch/mark_neighbors.hpp: which points of a cloud lie near its key points. Hosted only: allocates.
+#ifndef SHORTSHOT_BATCH_MARK_NEIGHBORS_HPP
+#define SHORTSHOT_BATCH_MARK_NEIGHBORS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// Marks the points within `radius` of a key point: `marks` has one number for each point of the cloud, 1 there, else
+/// 0. The normals of these are all that SHOT and CSHOT of that radius need: estimate_normals() and
+/// ImageNormalEstimator::estimate() take such marks. It pays where key points are so few that their neighborhoods leave
+/// most of the cloud out.
+///
+/// `search`     any search over this cloud
+/// `keypoints`  as extract() takes them: indices or KeyPoints. Those that cannot be described mark nothing
+///
+/// Statuses: empty_cloud, bad_view (also: the search is over a cloud of another size), bad_radius, what the search's
+/// build() returned, or other_cloud (as in extract()); `marks` is empty then. Allocates the marks (none, if they fit
+/// already) and about 30 bytes for each neighbor of the largest neighborhood; one thread.
+template <class Search, class Key>
+[[nodiscard]] Status mark_neighbors(const CloudView& cloud, const Search& search, const std::vector<Key>& keypoints,
+                                    Radius radius, std::vector<std::uint8_t>& marks) {
+  marks.clear();
+  Status status = detail::validate_search(cloud, search);
+  if (status == Status::ok) status = validate(radius);
+  if (status != Status::ok) return status;
+  marks.assign(cloud.size, 0);
+  detail::GrowingWorkspace workspace;
+  workspace.reserve(1024);
+  for (std::size_t row = 0; row < keypoints.size(); ++row) {
+    KeyPoint key{};
+    Neighborhood n;
+    if (!detail::keypoint_at(cloud, keypoints, row, key) || !is_finite(key.position)) continue;
+    if (workspace.gather(search, key.position, radius, n) != Status::ok) continue;
+    if (!detail::is_of(cloud, key.position, n)) {
+      marks.clear();
+      return Status::other_cloud;
+    }
+    for (std::uint32_t i = 0; i < n.size; ++i) marks[n.index[i]] = 1;
+  }
+  return Status::ok;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_BATCH_MARK_NEIGHBORS_HPP
 
 // shortshot/batch/describe_cloud.hpp: a whole cloud in one call: key points, search, frames, descriptors. Hosted only:
 // allocates, starts threads.

@@ -88,6 +88,18 @@ std::vector<SurfaceNormal> print_normals(const std::string& name, const CloudVie
   return normals;
 }
 
+/// Of a depth image, seen from the origin.
+void print_image_normals(const std::string& name, const CloudView& image) {
+  Hash hash;
+  for (const float radius : {0.01f, 0.03f, 0.1f}) {
+    std::vector<SurfaceNormal> normals;
+    const Status status = estimate_image_normals(image, radius, Viewpoint::towards({}), normals, 2);
+    hash.add(&status, 1);
+    hash.add(normals.data(), normals.size());
+  }
+  hash.print(name, "image_normals");
+}
+
 template <class Rule>
 void print_colors(const Input& input, const char* array) {
   if (!has_colors(input.cloud)) return;
@@ -258,6 +270,7 @@ void print_scene() {
   keypoints.print(input.name, "keypoints");
   const GridSearch search(input.cloud, 0.03f);
   const std::vector<SurfaceNormal> normals = print_normals(input.name, input.cloud, search, 0.03f);
+  print_image_normals(input.name, organized(input.cloud, scene.width, scene.height));
   input.cloud = with_normals(input.cloud, normals.data());
   print_all(input);
   print_recognition(input);

@@ -125,6 +125,14 @@ void describe_all(const std::string& name, const ss::CloudView& cloud, const Sea
         ss::estimate_normals(cloud, search, radius, ss::Viewpoint::towards({0, 0, 1}), normals) == ss::Status::ok;
   });
   read_all(normals);
+  step(name + " image normals", [&] {
+    std::vector<ss::SurfaceNormal> of_image;
+    checksum += ss::estimate_image_normals(cloud, radius, {}, of_image) == ss::Status::ok;
+    read_all(of_image);
+    std::vector<std::uint8_t> marks;
+    checksum += ss::mark_neighbors(cloud, search, keys, radius, marks) == ss::Status::ok;
+    checksum += ss::estimate_normals(cloud, search, radius, {}, marks, of_image) == ss::Status::ok;
+  });
   describe<ss::Ssh96>(name + " Ssh96", cloud, search, keys, radius);
   describe<ss::Scsh336>(name + " Scsh336", cloud, search, keys, radius);
   describe<ss::IntensityShape336>(name + " IntensityShape336", cloud, search, keys, radius);

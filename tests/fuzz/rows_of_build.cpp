@@ -1,6 +1,7 @@
 // ROWS is the function's name, which says what flags this is compiled with.
 #include "rows_of_build.hpp"
 
+#include <shortshot/batch/estimate_image_normals.hpp>
 #include <shortshot/batch/estimate_normals.hpp>
 #include <shortshot/descriptor/compact.hpp>
 #include <shortshot/kernel.hpp>
@@ -30,6 +31,17 @@ void append_row(std::vector<std::uint8_t>& rows, const ss::CloudView& cloud, std
                 "ok and length 1, or not and zeros");
 }
 
+/// Unit vectors, or NaN.
+void append_normals(std::vector<std::uint8_t>& rows, ss::Status status, const std::vector<ss::SurfaceNormal>& normals) {
+  append(rows, &status, 1);
+  append(rows, normals.data(), normals.size());
+  for (const ss::SurfaceNormal& n : normals) {
+    const float squared = n.x * n.x + n.y * n.y + n.z * n.z;
+    const bool none = n.x != n.x && n.y != n.y && n.z != n.z;
+    fuzz::require(none || std::abs(squared - 1.0f) < 1e-4f, "a unit vector, or NaN");
+  }
+}
+
 }  // namespace
 
 void fuzz::ROWS(const MadeCloud& made, std::size_t key, std::vector<std::uint8_t>& rows) {
@@ -38,13 +50,9 @@ void fuzz::ROWS(const MadeCloud& made, std::size_t key, std::vector<std::uint8_t
   const ss::BruteSearch search(cloud);
   std::vector<ss::SurfaceNormal> normals;
   ss::Status status = ss::estimate_normals(cloud, search, made.radius, {}, normals);
-  append(rows, &status, 1);
-  append(rows, normals.data(), normals.size());
-  for (const ss::SurfaceNormal& n : normals) {
-    const float squared = n.x * n.x + n.y * n.y + n.z * n.z;
-    const bool none = n.x != n.x && n.y != n.y && n.z != n.z;
-    require(none || std::abs(squared - 1.0f) < 1e-4f, "a unit vector, or NaN");
-  }
+  append_normals(rows, status, normals);
+  status = ss::estimate_image_normals(cloud, made.radius, {}, normals);
+  append_normals(rows, status, normals);
 
   ss::Neighborhood n = ss::neighborhood_in(workspace);
   status = search.gather(ss::point(cloud, key), made.radius, n);

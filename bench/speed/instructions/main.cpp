@@ -41,9 +41,9 @@ const std::string workload =
 
 bool is_gated(const std::string& stage) {
   for (const char* name :
-       {"sample", "index grid again", "lab", "search grid", "frame", "normals", "kernel Ssh32", "kernel Scsh336",
-        "kernel Scsh696", "kernel Shot352", "kernel Cshot1344", "kernel IntensityShape336", "kernel ShapeColor95",
-        "kernel ShapeColor32", "mean shift", "whole frame Scsh336"}) {
+       {"sample", "index grid again", "lab", "search grid", "frame", "normals", "image normals", "kernel Ssh32",
+        "kernel Scsh336", "kernel Scsh696", "kernel Shot352", "kernel Cshot1344", "kernel IntensityShape336",
+        "kernel ShapeColor95", "kernel ShapeColor32", "mean shift", "whole frame Scsh336"}) {
     if (stage == name) return true;
   }
   return false;

@@ -163,7 +163,7 @@ std::vector<Goal> bounded_goals() {
       {"fast normals of an image, instructions a point",
        Limit::at_most,
        {400.0, 400.0},
-       instructions("point", {"fast normals"}),
+       instructions("point", {"image normals"}),
        no_fast_way},
       {"fast normals of an image, median error, degrees", Limit::at_most, {1.0, {}}, per_build(nothing), no_fast_way},
       {"mean shift, 2000 votes, million instructions",

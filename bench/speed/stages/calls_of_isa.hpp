@@ -71,6 +71,13 @@ template <class Search>
   return shortshot::estimate_normals(view, search, radius, camera, normals);
 }
 
+[[gnu::noinline]] Status normals_of_image(const shortshot::CloudView& view, float radius,
+                                          const shortshot::Viewpoint& camera,
+                                          shortshot::ImageNormalEstimator& estimator,
+                                          std::vector<shortshot::SurfaceNormal>& normals) {
+  return estimator.estimate(view, radius, camera, normals);
+}
+
 template <class D, class Sources>
 [[gnu::noinline]] Status kernel(const shortshot::Neighborhood& n, const Sources& sources, const shortshot::Frame& frame,
                                 float radius, float* out) {

@@ -76,9 +76,9 @@ class StageList {
   }
 
   void add_frame() {
-    const auto frame = std::make_shared<shortshot::Frame>();
-    add_for_chosen(
-        "frame", [frame](const GatheredKeyPoint& k, float radius) { return frame_of(k.neighborhood, radius, *frame); });
+    add_for_chosen("frame", [frame = std::make_shared<shortshot::Frame>()](const GatheredKeyPoint& k, float radius) {
+      return frame_of(k.neighborhood, radius, *frame);
+    });
   }
 
   /// Of the whole cloud on one thread, the index not included; in the memory of the last run.
@@ -94,8 +94,19 @@ class StageList {
     stage.bytes = stage.points * sizeof(shortshot::SurfaceNormal);
   }
 
+  /// The same of the depth image, within the same radius, in the memory of the last run.
+  void add_image_normals() {
+    const Workload& w = workload_;
+    const auto estimator = std::make_shared<shortshot::ImageNormalEstimator>();
+    const auto normals = std::make_shared<std::vector<shortshot::SurfaceNormal>>();
+    Stage& stage = add("image normals", [&w, estimator, normals] {
+      return normals_of_image(w.view(), w.normal_radius, camera_of_cloud(w.cloud), *estimator, *normals);
+    });
+    stage.points = w.cloud.size();
+    stage.bytes = stage.points * sizeof(shortshot::SurfaceNormal);
+  }
+
   void add_lab() {
-    if (!workload_.cloud.has_colors()) return;
     const auto table = std::make_shared<shortshot::LabTable<shortshot::PublishedLab>>();
     table->fill();
     Stage& stage = add("lab", [&w = workload_, table, lab = lab_by<shortshot::PublishedLab>()] {
@@ -270,7 +281,8 @@ StageBuild STAGES(const Workload& workload) {
   list.add_search_nanoflann();
   list.add_frame();
   list.add_normals();
-  list.add_lab();
+  if (workload.cloud.is_organized()) list.add_image_normals();
+  if (workload.cloud.has_colors()) list.add_lab();
   list.add_descriptor<shortshot::Ssh32>("Ssh32");
   list.add_descriptor<shortshot::Ssh96>("Ssh96");
   list.add_descriptor<shortshot::Scsh336>("Scsh336");

@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "../config.hpp"
+#include "quad.hpp"
 #include "unfused.hpp"
 
 namespace shortshot::extend::simd {
@@ -147,6 +148,11 @@ template <class Function>
 [[nodiscard]] inline I16 narrow(Mask a, Mask b) noexcept { return narrow(I32{a.v ? -1 : 0}, I32{b.v ? -1 : 0}); }
 [[nodiscard]] inline I16 operator*(I16 a, I16 b) noexcept { return {a.v * b.v}; }
 inline void store(std::int16_t* p, I16 a) noexcept { std::memcpy(p, &a, sizeof a); }
+
+/// What the lane has in a, b, c and d.
+[[gnu::always_inline]] inline void transpose(I32 a, I32 b, I32 c, I32 d, Quad (&quads)[lanes]) noexcept {
+  quads[0] = Quad{a.v, b.v, c.v, d.v};
+}
 
 /// The three floats at base + 3 * index[k], for all lanes.
 [[gnu::always_inline]] inline void load_triples(const float* base, const std::uint32_t* index, F32& a, F32& b,

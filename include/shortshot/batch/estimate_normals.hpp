@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -22,6 +23,38 @@ inline namespace SHORTSHOT_CODE {
 
 /// Points that a thread takes at a time: about a quarter of a millisecond of work.
 inline constexpr std::size_t normal_block = 512;
+
+/// estimate_normals() where `needed` is not 0; null: everywhere.
+template <class Search, class Threads>
+[[nodiscard]] Status estimate_needed_normals(const CloudView& cloud, const Search& search, Radius radius,
+                                             const Viewpoint& viewpoint, const std::uint8_t* needed,
+                                             std::vector<SurfaceNormal>& normals, Threads& threads) {
+  normals.clear();
+  Status status = validate_search(cloud, search);
+  if (status == Status::ok) status = validate(radius);
+  if (status == Status::ok) status = validate(viewpoint);
+  if (status == Status::ok && all_are_coarse(cloud, radius)) status = Status::coarse_coordinates;
+  if (status != Status::ok) return status;
+
+  auto&& executor = executor_of(threads, (cloud.size + normal_block - 1) / normal_block);
+  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
+  std::vector<NormalMemory> memories(team);
+  for (NormalMemory& memory : memories) memory.workspace.reserve(1024);
+  constexpr float none = std::numeric_limits<float>::quiet_NaN();
+  normals.assign(cloud.size, {none, none, none});  // and so they stay where an executor throws before their turn
+  for_blocks(executor, team, cloud.size, normal_block, [&](std::size_t thread, std::size_t begin, std::size_t end) {
+    NormalEstimator<Search>(cloud, search, radius, viewpoint, needed, memories[thread], normals.data())
+        .estimate(begin, end);
+  });
+  bool other_cloud = false;
+  for (const NormalMemory& memory : memories) other_cloud = other_cloud || memory.other_cloud;
+  const auto has_one = [](const SurfaceNormal& n) { return n.x == n.x; };
+  if (!other_cloud && std::none_of(normals.begin(), normals.end(), has_one)) {
+    other_cloud = !finds_a_point(cloud, search, radius, memories[0].workspace);
+  }
+  if (other_cloud) normals.clear();
+  return other_cloud ? Status::other_cloud : Status::ok;
+}
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
@@ -54,32 +87,21 @@ template <class Search, class Threads = unsigned>
 [[nodiscard]] Status estimate_normals(const CloudView& cloud, const Search& search, Radius radius,
                                       const Viewpoint& viewpoint, std::vector<SurfaceNormal>& normals,
                                       Threads&& threads = 1u) {
-  normals.clear();
-  Status status = detail::validate_search(cloud, search);
-  if (status == Status::ok) status = validate(radius);
-  if (status == Status::ok) status = validate(viewpoint);
-  if (status == Status::ok && detail::all_are_coarse(cloud, radius)) status = Status::coarse_coordinates;
-  if (status != Status::ok) return status;
+  return detail::estimate_needed_normals(cloud, search, radius, viewpoint, nullptr, normals, threads);
+}
 
-  auto&& executor = detail::executor_of(threads, (cloud.size + detail::normal_block - 1) / detail::normal_block);
-  const std::size_t team = std::max<std::size_t>(1, static_cast<std::size_t>(executor.threads()));
-  std::vector<detail::NormalMemory> memories(team);
-  for (detail::NormalMemory& memory : memories) memory.workspace.reserve(1024);
-  constexpr float none = std::numeric_limits<float>::quiet_NaN();
-  normals.assign(cloud.size, {none, none, none});  // and so they stay where an executor throws before their turn
-  detail::for_blocks(
-      executor, team, cloud.size, detail::normal_block, [&](std::size_t thread, std::size_t begin, std::size_t end) {
-        detail::NormalEstimator<Search>(cloud, search, radius, viewpoint, memories[thread], normals.data())
-            .estimate(begin, end);
-      });
-  bool other_cloud = false;
-  for (const detail::NormalMemory& memory : memories) other_cloud = other_cloud || memory.other_cloud;
-  const auto has_one = [](const SurfaceNormal& n) { return n.x == n.x; };
-  if (!other_cloud && std::none_of(normals.begin(), normals.end(), has_one)) {
-    other_cloud = !detail::finds_a_point(cloud, search, radius, memories[0].workspace);
-  }
-  if (other_cloud) normals.clear();
-  return other_cloud ? Status::other_cloud : Status::ok;
+/// The same where normals are needed: `needed` has a number for each point (see mark_neighbors()). Points where it is
+/// not 0 have the normals that they have among those of the whole cloud, bit for bit; others may have NaN. sizes_differ
+/// if there are not as many.
+template <class Search, class Threads = unsigned>
+[[nodiscard]] Status estimate_normals(const CloudView& cloud, const Search& search, Radius radius,
+                                      const Viewpoint& viewpoint, const std::vector<std::uint8_t>& needed,
+                                      std::vector<SurfaceNormal>& normals, Threads&& threads = 1u) {
+  normals.clear();
+  const Status usable = detail::validate_search(cloud, search);
+  if (usable != Status::ok) return usable;
+  if (needed.size() != cloud.size) return Status::sizes_differ;
+  return detail::estimate_needed_normals(cloud, search, radius, viewpoint, needed.data(), normals, threads);
 }
 
 }  // namespace SHORTSHOT_CODE

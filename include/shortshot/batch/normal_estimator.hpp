@@ -39,8 +39,14 @@ template <class Search>
 class NormalEstimator {
  public:
   NormalEstimator(const CloudView& cloud, const Search& search, Radius radius, const Viewpoint& viewpoint,
-                  NormalMemory& memory, SurfaceNormal* normals) noexcept
-      : cloud_(cloud), search_(search), radius_(radius), viewpoint_(viewpoint), memory_(memory), normals_(normals) {
+                  const std::uint8_t* needed, NormalMemory& memory, SurfaceNormal* normals) noexcept
+      : cloud_(cloud),
+        search_(search),
+        radius_(radius),
+        viewpoint_(viewpoint),
+        needed_(needed),
+        memory_(memory),
+        normals_(normals) {
     const bool image = cloud.height > 1 && cloud.size % cloud.height == 0 && cloud.size / cloud.height == cloud.width;
     row_ = image ? cloud.width : 0;
   }
@@ -60,7 +66,9 @@ class NormalEstimator {
       estimate_part(0, group);
       used = 0;
     }
-    for (std::size_t k = 0; k < used; ++k) estimate_alone(k);
+    for (std::size_t k = 0; k < used; ++k) {
+      if (is_needed(k, 1)) estimate_alone(k);
+    }
   }
 
  private:
@@ -77,8 +85,17 @@ class NormalEstimator {
     return cloud_.size - first < rows * row_ ? k : first + (k - first) / rows + k % rows * row_;
   }
 
+  /// Is any of these points? Groups are made of all points, needed or not: so normals have the bits that they have
+  /// among those of the whole cloud.
+  [[nodiscard]] bool is_needed(std::size_t first, std::size_t count) const noexcept {
+    if (needed_ == nullptr) return true;
+    const std::size_t* const index = index_ + first;
+    return std::any_of(index, index + count, [this](std::size_t i) { return needed_[i] != 0; });
+  }
+
   /// Points [first, first + count) of the group, or each half of them if they lie too far apart.
   void estimate_part(std::size_t first, std::size_t count) {
+    if (!is_needed(first, count)) return;
     SurfaceNormal found[group] = {};
     const bool one_place = are_in_one_place(first, count);
     const SurfaceNormal* const known =
@@ -138,18 +155,8 @@ class NormalEstimator {
     }
     for (std::size_t k = first; k < first + count; k += simd::lanes) {
       const Moments moments = totals(shares + k);
-      store(found + k, keep(is_fine(moments, scale), normals_of(moments, scale, directions_at(k))));
+      store(found + k, keep(is_fine(moments, scale), normals_of(moments, scale, directions(viewpoint_, places(k)))));
     }
-  }
-
-  /// What to turn the normals of a register of points to; zeros if the viewpoint is absent.
-  [[nodiscard]] PointLanes directions_at(std::size_t k) const noexcept {
-    using Side = Viewpoint::Side;
-    const float side = viewpoint_.side == Side::absent ? 0.0f : viewpoint_.side == Side::towards ? 1.0f : -1.0f;
-    const Point& p = viewpoint_.point;
-    return {(simd::all(p.x) - simd::load(x_ + k)) * simd::all(side),
-            (simd::all(p.y) - simd::load(y_ + k)) * simd::all(side),
-            (simd::all(p.z) - simd::load(z_ + k)) * simd::all(side)};
   }
 
   void estimate_alone(std::size_t k) {
@@ -176,6 +183,11 @@ class NormalEstimator {
 
   [[nodiscard]] Point place(std::size_t k) const noexcept { return {x_[k], y_[k], z_[k]}; }
 
+  /// Of a register.
+  [[nodiscard]] PointLanes places(std::size_t k) const noexcept {
+    return {simd::load(x_ + k), simd::load(y_ + k), simd::load(z_ + k)};
+  }
+
   [[nodiscard]] bool are_in_one_place(std::size_t first, std::size_t count) const noexcept {
     for (std::size_t k = first + 1; k < first + count; ++k) {
       if (!(x_[k] == x_[first] && y_[k] == y_[first] && z_[k] == z_[first])) return false;
@@ -187,6 +199,7 @@ class NormalEstimator {
   const Search& search_;
   const Radius radius_;
   const Viewpoint viewpoint_;
+  const std::uint8_t* const needed_;  // one per point; null: all are
   NormalMemory& memory_;
   SurfaceNormal* const normals_;
   std::size_t index_[group];

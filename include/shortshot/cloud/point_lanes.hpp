@@ -31,8 +31,8 @@ struct PointLanes {
 template <class Function>
 [[nodiscard, gnu::always_inline]] inline PointLanes read_lanes(const Float3Channel& channel,
                                                                Function index_at) noexcept {
-  const auto read_component = [&](const unsigned char* first) {
-    return simd::from_lanes([&](std::size_t lane) {
+  const auto read_component = [&](const unsigned char* first) SHORTSHOT_INLINE_LAMBDA {
+    return simd::from_lanes([&](std::size_t lane) SHORTSHOT_INLINE_LAMBDA {
       float value = 0.0f;
       std::memcpy(&value, first + index_at(lane) * channel.stride_bytes, sizeof value);
       return value;

@@ -139,6 +139,15 @@ template <class Neighbors>
   return keep(flat, PointLanes{turned(0), turned(1), turned(2)});
 }
 
+/// What to turn the normals at these places to; zeros if the viewpoint is absent.
+[[nodiscard]] inline PointLanes directions(const Viewpoint& viewpoint, const PointLanes& places) noexcept {
+  using Side = Viewpoint::Side;
+  using simd::all;
+  const float side = viewpoint.side == Side::absent ? 0.0f : viewpoint.side == Side::towards ? 1.0f : -1.0f;
+  const Point& p = viewpoint.point;
+  return {(all(p.x) - places.x) * all(side), (all(p.y) - places.y) * all(side), (all(p.z) - places.z) * all(side)};
+}
+
 /// One normal from each lane.
 inline void store(SurfaceNormal* normals, const PointLanes& v) noexcept {
   float components[3][simd::lanes];

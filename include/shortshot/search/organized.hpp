@@ -13,17 +13,11 @@
 #include "../status.hpp"
 #include "neighborhood.hpp"
 #include "offer.hpp"
+#include "pinhole.hpp"
 #include "radius.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
-
-/// pixel = focal * (x / z) + center, for one direction of the image; no valid point is farther than `error` from it.
-struct Projection {
-  float focal;
-  float center;
-  float error;
-};
 
 /// First and last pixel of a window.
 struct PixelRange {
@@ -130,8 +124,8 @@ class OrganizedSearch {
     if (!front && !behind && !nowhere) return Status::empty_cloud;
     if ((front && behind) || nowhere) return Status::not_organized;
 
-    Line columns{};
-    Line rows{};
+    detail::PinholeLine columns{};
+    detail::PinholeLine rows{};
     for_each_pixel([&](float u, float v, float x, float y) {
       columns.add_to_mean(x, u);
       rows.add_to_mean(y, v);
@@ -145,41 +139,12 @@ class OrganizedSearch {
     columns_ = columns.projection();
     rows_ = rows.projection();
     for_each_pixel([&](float u, float v, float x, float y) {
-      widen(columns_, x, u);
-      widen(rows_, y, v);
+      columns_.widen(x, u);
+      rows_.widen(y, v);
     });
     const bool pinhole = columns_.error <= 0.25f * static_cast<float>(cloud_.width) &&
                          rows_.error <= 0.25f * static_cast<float>(cloud_.height);
     return pinhole ? Status::ok : Status::not_organized;
-  }
-
-  /// Least squares of pixel over slope in float, by running means so that a million points do not wear it out. It need
-  /// not be exact: what the fit misses, the margin covers.
-  struct Line {
-    float count, mean_slope, mean_pixel, variance, covariance;
-
-    void add_to_mean(float slope, float pixel) noexcept {
-      count += 1.0f;
-      mean_slope += (slope - mean_slope) / count;
-      mean_pixel += (pixel - mean_pixel) / count;
-    }
-    void add_to_slope(float slope, float pixel) noexcept {
-      variance += extend::unfused((slope - mean_slope) * (slope - mean_slope));
-      covariance += extend::unfused((slope - mean_slope) * (pixel - mean_pixel));
-    }
-    [[nodiscard]] bool is_finite() const noexcept {
-      return extend::math::is_finite(mean_slope) && extend::math::is_finite({variance, mean_pixel, covariance});
-    }
-    [[nodiscard]] detail::Projection projection() const noexcept {
-      const float focal = variance > 0.0f ? covariance / variance : 0.0f;
-      return {focal, mean_pixel - extend::unfused(focal * mean_slope), 0.0f};
-    }
-  };
-
-  static void widen(detail::Projection& p, float slope, float pixel) noexcept {
-    const float deviation = pixel - (extend::unfused(p.focal * slope) + p.center);
-    const float magnitude = deviation < 0.0f ? 0.0f - deviation : deviation;
-    if (!(magnitude <= p.error)) p.error = magnitude;
   }
 
   CloudView cloud_;

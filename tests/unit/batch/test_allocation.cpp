@@ -9,6 +9,7 @@
 #include <new>
 #include <vector>
 
+#include "depth_images.hpp"
 #include "fixtures.hpp"
 #include "thread_pool.hpp"
 
@@ -125,6 +126,30 @@ TEST_CASE("allocation: one thread allocates nothing from the second frame on") {
   CHECK(steady_allocations<ss::Ssh32>(1) == none);
   CHECK(steady_allocations<ss::Shot352>(1) == none);
   CHECK(steady_allocations<ss::Cshot1344>(1) == none);
+}
+
+TEST_CASE("allocation: normals of depth images need none from the second frame on, on one thread or an executor's") {
+  const DepthImage frames[3] = {noisy_ball(1, 0.001f), noisy_ball(2, 0.001f), with_holes(noisy_ball(3, 0.001f), 4, 5)};
+  ThreadPool pool(3);
+  const auto count = [&](auto&& threads) {
+    ss::ImageNormalEstimator estimator;
+    std::vector<ss::SurfaceNormal> normals;
+    std::vector<std::size_t> counts;
+    counts.reserve(3);
+    for (const DepthImage& frame : frames) {
+      const ss::CloudView view = frame.view();
+      const std::size_t before = allocations;
+      const Status status =
+          estimator.estimate(view, radius * static_cast<float>(counts.size() + 1), {}, normals, threads);
+      counts.push_back(allocations - before);
+      REQUIRE(status == Status::ok);
+    }
+    CHECK(counts[0] > 0);
+    CHECK(counts[1] == 0);
+    CHECK(counts[2] == 0);
+  };
+  count(1);
+  count(pool);
 }
 
 TEST_CASE("allocation: the kernel allocates nothing, not even at first") {

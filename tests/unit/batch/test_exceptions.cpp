@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "depth_images.hpp"
 #include "fixtures.hpp"
 
 namespace test_exceptions {
@@ -115,6 +116,23 @@ TEST_CASE("exceptions: normals that were not estimated are NaN") {
     for (std::size_t i = 0; i < normals.size(); ++i) {
       if (!failure.works) REQUIRE_FALSE(ss::extend::math::is_finite(normals[i].x));
       if (failure.works) REQUIRE(normals[i].x == right[i].x);
+    }
+  }
+}
+
+TEST_CASE("exceptions: normals of an image that were not estimated are NaN") {
+  const DepthImage first = noisy_ball(1, 0.001f), second = noisy_ball(2, 0.001f);
+  ss::ImageNormalEstimator estimator;
+  std::vector<ss::SurfaceNormal> normals, right;
+  REQUIRE(estimator.estimate(second.view(), radius, {}, right) == Status::ok);
+  for (const Failing& failure : {failures[0], failures[1]}) {
+    REQUIRE(estimator.estimate(first.view(), radius, {}, normals) == Status::ok);
+    Failing executor = failure;
+    CHECK_THROWS_AS(static_cast<void>(estimator.estimate(second.view(), radius, {}, normals, executor)), NoThread);
+    REQUIRE(normals.size() == right.size());
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      if (!failure.works) REQUIRE_FALSE(ss::extend::math::is_finite(normals[i].x));
+      if (failure.works && ss::extend::math::is_finite(right[i].x)) REQUIRE(normals[i].x == right[i].x);
     }
   }
 }

@@ -74,6 +74,18 @@ void estimate_normals(State& state, const ss::CloudView& view) {
   require(ss::estimate_normals(view, *state.normal_grid, normal_radius, ss::Viewpoint::towards({}), state.normals));
 }
 
+/// Of the image, and then those of its points if they are a list.
+void estimate_fast_normals(State& state, const ss::CloudView& view) {
+  const ss::CloudView image = view_of_cloud(state.task.image);
+  require(ss::estimate_image_normals(image, normal_radius, ss::Viewpoint::towards({}), state.normals));
+  if (view.size == image.size) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < image.size; ++i) {
+    if (ss::is_finite(ss::point(image, i))) state.normals[kept++] = state.normals[i];
+  }
+  state.normals.resize(kept);
+}
+
 template <class LabRule>
 void convert_colors(State& state) {
   state.lab.resize(state.view.size);
@@ -206,6 +218,9 @@ Suite PEERS_SUITE(const Task& task) {
   add_descriptor<ss::Scsh696>(suite, state, steps, "SCSH-696");
   suite.add("Lab, PCL's rule", [=] { convert_colors<ss::PclCshot1344::LabRule>(*state); });
   add_with_normals(suite, state, steps, normals_made, "", estimate_normals);
+  if (task.image.is_organized()) {
+    add_with_normals(suite, state, steps, fast_normals_made, with_fast_normals, estimate_fast_normals);
+  }
   return suite;
 }
 
