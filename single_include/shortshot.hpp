@@ -9799,8 +9799,8 @@ using namespace extend;
 
 #define SHORTSHOT_FOR_AVX2
 
-// shortshot/dispatch/forget_kernel.hpp: the include guards of hot_kernel.hpp and all that it includes, so that it can be
-// read once more. No include guard.
+// shortshot/dispatch/forget_kernel.hpp: the include guards of hot_kernel.hpp and all that it includes, so that it can
+// be read once more. No include guard.
 
 #undef SHORTSHOT_BASE_FIXED_POINT_HPP
 #undef SHORTSHOT_BASE_MATH_HPP
@@ -10395,7 +10395,7 @@ class VoxelTable {
 
   /// The place, among voxels(), of a point's voxel, with the point in it. Points come in the order of their indices.
   std::uint32_t add(const float (&number)[3], float d2, std::uint32_t index) {
-    if (last_ >= voxels_.size() || !is_at(voxels_[last_], number)) last_ = find(number);
+    if (voxels_.empty() || !is_at(voxels_[last_], number)) last_ = find(number);
     Voxel& voxel = voxels_[last_];
     ++voxel.points;
     if (d2 < voxel.d2) {

@@ -55,10 +55,9 @@ class StageList {
 
   template <class Search>
   void add_index(const char* name) {
-    const Workload& w = workload_;
-    Stage& stage = add(std::string("index ") + name, [&w] { return Search(w.view(), w.radius).status(); });
-    stage.points = w.cloud.size();
-    stage.bytes = index_bytes<Search>(w);
+    Stage& stage = add(std::string("index ") + name, [&w = workload_] { return Search(w.view(), w.radius).status(); });
+    stage.points = workload_.cloud.size();
+    stage.bytes = index_bytes<Search>(workload_);
   }
 
   /// The grid of the next frame, in the memory of the last one.
@@ -85,8 +84,7 @@ class StageList {
   void add_normals() {
     const Workload& w = workload_;
     const auto near = std::make_shared<shortshot::GridSearch>(w.view(), w.normal_radius);
-    const auto normals = std::make_shared<std::vector<shortshot::SurfaceNormal>>();
-    Stage& stage = add("normals", [&w, near, normals] {
+    Stage& stage = add("normals", [&w, near, normals = std::make_shared<std::vector<shortshot::SurfaceNormal>>()] {
       return normals_of_cloud(w.view(), *near, w.normal_radius, camera_of_cloud(w.cloud), *normals);
     });
     stage.points = w.cloud.size();
@@ -98,9 +96,9 @@ class StageList {
   void add_image_normals() {
     const Workload& w = workload_;
     const auto estimator = std::make_shared<shortshot::ImageNormalEstimator>();
-    const auto normals = std::make_shared<std::vector<shortshot::SurfaceNormal>>();
-    Stage& stage = add("image normals", [&w, estimator, normals] {
-      return normals_of_image(w.view(), w.normal_radius, camera_of_cloud(w.cloud), *estimator, *normals);
+    const auto made = std::make_shared<std::vector<shortshot::SurfaceNormal>>();
+    Stage& stage = add("image normals", [&w, estimator, made] {
+      return normals_of_image(w.view(), w.normal_radius, camera_of_cloud(w.cloud), *estimator, *made);
     });
     stage.points = w.cloud.size();
     stage.bytes = stage.points * sizeof(shortshot::SurfaceNormal);

@@ -35,7 +35,7 @@ class VoxelTable {
 
   /// The place, among voxels(), of a point's voxel, with the point in it. Points come in the order of their indices.
   std::uint32_t add(const float (&number)[3], float d2, std::uint32_t index) {
-    if (last_ >= voxels_.size() || !is_at(voxels_[last_], number)) last_ = find(number);
+    if (voxels_.empty() || !is_at(voxels_[last_], number)) last_ = find(number);
     Voxel& voxel = voxels_[last_];
     ++voxel.points;
     if (d2 < voxel.d2) {

@@ -1,5 +1,5 @@
-// shortshot/dispatch/forget_kernel.hpp: the include guards of hot_kernel.hpp and all that it includes, so that it can be
-// read once more. No include guard.
+// shortshot/dispatch/forget_kernel.hpp: the include guards of hot_kernel.hpp and all that it includes, so that it can
+// be read once more. No include guard.
 
 #undef SHORTSHOT_BASE_FIXED_POINT_HPP
 #undef SHORTSHOT_BASE_MATH_HPP
