@@ -4988,6 +4988,14 @@ static_assert(ShapeColor95::size == 190 && ShapeColor32::size == 64 && RoomColor
 
 #endif  // SHORTSHOT_DESCRIPTOR_COMPACT_HPP
 
+// shortshot/frame/normals_together.hpp: the normals of a group of points among the same candidates.
+#ifndef SHORTSHOT_FRAME_NORMALS_TOGETHER_HPP
+#define SHORTSHOT_FRAME_NORMALS_TOGETHER_HPP
+
+// shortshot/frame/candidate_chunk.hpp: points that may be neighbors of a group of points, and what they add to moments.
+#ifndef SHORTSHOT_FRAME_CANDIDATE_CHUNK_HPP
+#define SHORTSHOT_FRAME_CANDIDATE_CHUNK_HPP
+
 // shortshot/frame/normal.hpp: the surface normal of a gathered neighborhood.
 #ifndef SHORTSHOT_FRAME_NORMAL_HPP
 #define SHORTSHOT_FRAME_NORMAL_HPP
@@ -5182,6 +5190,116 @@ template <class Neighbors>
 }  // namespace shortshot
 
 #endif  // SHORTSHOT_FRAME_NORMAL_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Some of the points that may be neighbors of a group: where they are, and their terms of moments.
+class CandidateChunk {
+ public:
+  static constexpr std::uint32_t most = 64;
+
+  /// Candidates from `first` on; their moments are about the place that `candidates` were gathered around.
+  void fill(const CloudView& cloud, const Neighborhood& candidates, std::uint32_t first,
+            const MomentScale& by) noexcept {
+    for (size_ = 0; size_ < most && first + size_ < candidates.size; size_ += simd::lanes) {
+      const NeighborLanes v = load_neighbors(candidates, first + size_);
+      const std::uint32_t left = candidates.size - first - size_;
+      std::uint32_t index[simd::lanes];
+      simd::store(index, v.index);
+      for (std::size_t lane = left; lane < simd::lanes; ++lane) index[lane] = index[0];
+      const PointLanes p = read_lanes(cloud.points, [&](std::size_t lane) { return std::size_t{index[lane]}; });
+      // What fills up the last register is nobody's neighbor: on the other side of the origin, beyond any radius.
+      const float nowhere = candidates.center.x > 0.0f ? -1.3e19f : 1.3e19f;
+      simd::store(x_ + size_, select(simd::first(left), p.x, simd::all(nowhere)));
+      simd::store(y_ + size_, p.y);
+      simd::store(z_ + size_, p.z);
+      const Terms each = terms_of(v, by);
+      unroll<Terms::kinds>([&](auto k) { simd::store(terms_[k] + size_, each.of[k]); });
+    }
+  }
+
+  /// Adds those that are neighbors of a point.
+  void add_neighbors(const Point& p, Radius radius, Moments& to) const noexcept {
+    const simd::F32 x = simd::all(p.x);
+    const simd::F32 y = simd::all(p.y);
+    const simd::F32 z = simd::all(p.z);
+    Moments sums = to;
+    for (std::uint32_t i = 0; i < size_; i += simd::lanes) {
+      const simd::F32 dx = simd::load(x_ + i) - x;
+      const simd::F32 dy = simd::load(y_ + i) - y;
+      const simd::F32 dz = simd::load(z_ + i) - z;
+      const simd::Mask near = (dx * dx + dy * dy) + dz * dz < simd::all(radius.squared);
+      add_where(near, sums, [&](auto k) { return simd::load(terms_[k] + i); });
+    }
+    to = sums;
+  }
+
+ private:
+  alignas(simd::F32) float x_[most];
+  alignas(simd::F32) float y_[most];
+  alignas(simd::F32) float z_[most];
+  alignas(simd::F32) std::uint32_t terms_[Terms::kinds][most];
+  std::uint32_t size_ = 0;
+};
+
+/// The totals of moments whose lanes hold shares, one after the other.
+[[nodiscard]] inline Moments totals(const Moments* shares) noexcept {
+  Moments result;
+  const auto total = [&](const auto& share_of) {
+    std::uint32_t lanes[simd::lanes];
+    for (std::size_t k = 0; k < simd::lanes; ++k) lanes[k] = static_cast<std::uint32_t>(sum(share_of(shares[k])));
+    return simd::load(lanes);
+  };
+  result.members = total([](const Moments& m) { return m.members; });
+  unroll<Terms::kinds>([&](auto k) { result.of[k] = total([k](const Moments& m) { return m.of[k]; }); });
+  return result;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_FRAME_CANDIDATE_CHUNK_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Points side by side, at most 16, whole registers of them.
+struct PlaceGroup {
+  static constexpr std::size_t most = 16;
+  const float* x;
+  const float* y;
+  const float* z;
+  std::size_t count;
+};
+
+/// Their normals, three components each; zeros for those that need to be looked at alone. `candidates`, gathered within
+/// `wide`, has all their neighbors within `radius`.
+inline void normals_together(const CloudView& cloud, const Neighborhood& candidates, Radius wide, Radius radius,
+                             const Viewpoint& viewpoint, const PlaceGroup& group, float* normals) noexcept {
+  const MomentScale scale = moment_scale(candidates.size, wide.value);
+  Moments shares[PlaceGroup::most] = {};
+  CandidateChunk chunk;
+  for (std::uint32_t i = 0; i < candidates.size; i += CandidateChunk::most) {
+    chunk.fill(cloud, candidates, i, scale);
+    for (std::size_t k = 0; k < group.count; ++k) {
+      chunk.add_neighbors({group.x[k], group.y[k], group.z[k]}, radius, shares[k]);
+    }
+  }
+  for (std::size_t k = 0; k < group.count; k += simd::lanes) {
+    const Moments moments = totals(shares + k);
+    const PointLanes places{simd::load(group.x + k), simd::load(group.y + k), simd::load(group.z + k)};
+    const PointLanes towards = directions(viewpoint, places);
+    SurfaceNormal found[simd::lanes];
+    store(found, keep(is_fine(moments, scale), normals_of(moments, scale, towards)));
+    std::memcpy(normals + 3 * k, found, sizeof found);
+  }
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_FRAME_NORMALS_TOGETHER_HPP
 
 // shortshot/kernel/describe_at.hpp: one key point from cloud to descriptor: search, frame and kernel in one call.
 #ifndef SHORTSHOT_KERNEL_DESCRIBE_AT_HPP
@@ -9841,7 +9959,9 @@ using namespace extend;
 #undef SHORTSHOT_DESCRIPTOR_SPHERICAL_GRID_HPP
 #undef SHORTSHOT_DESCRIPTOR_VOTING_HPP
 #undef SHORTSHOT_DISPATCH_HOT_KERNEL_HPP
+#undef SHORTSHOT_FRAME_CANDIDATE_CHUNK_HPP
 #undef SHORTSHOT_FRAME_FRAME_HPP
+#undef SHORTSHOT_FRAME_NORMALS_TOGETHER_HPP
 #undef SHORTSHOT_FRAME_NORMAL_HPP
 #undef SHORTSHOT_FRAME_RANK_BY_DISTANCE_HPP
 #undef SHORTSHOT_FRAME_VIEWPOINT_HPP
@@ -10081,6 +10201,21 @@ inline std::size_t place_widest(const CloudView& cloud, float leaf, std::size_t 
   }
 #endif
   return place_in_voxels(cloud, leaf, begin, number, d2);
+}
+
+/// normals_together().
+inline void normals_widest(const CloudView& cloud, const Neighborhood& candidates, Radius wide, Radius radius,
+                           const Viewpoint& viewpoint, const PlaceGroup& group, float* normals) noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  if (has_wider_lanes()) {
+    ::shortshot_avx2::detail::normals_together(
+        as_twin<::shortshot_avx2::CloudView>(cloud), as_twin<::shortshot_avx2::Neighborhood>(candidates),
+        as_twin<::shortshot_avx2::Radius>(wide), as_twin<::shortshot_avx2::Radius>(radius),
+        as_twin<::shortshot_avx2::Viewpoint>(viewpoint), as_twin<::shortshot_avx2::detail::PlaceGroup>(group), normals);
+    return;
+  }
+#endif
+  normals_together(cloud, candidates, wide, radius, viewpoint, group, normals);
 }
 
 /// multiply().
@@ -10746,80 +10881,6 @@ void for_blocks(Executor& executor, std::size_t threads, std::size_t count, std:
 #ifndef SHORTSHOT_BATCH_NORMAL_ESTIMATOR_HPP
 #define SHORTSHOT_BATCH_NORMAL_ESTIMATOR_HPP
 
-// shortshot/batch/candidate_chunk.hpp: points that may be neighbors of a group of points, and what they add to moments.
-// Hosted only.
-#ifndef SHORTSHOT_BATCH_CANDIDATE_CHUNK_HPP
-#define SHORTSHOT_BATCH_CANDIDATE_CHUNK_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// Some of the points that may be neighbors of a group: where they are, and their terms of moments.
-class CandidateChunk {
- public:
-  static constexpr std::uint32_t most = 64;
-
-  /// Candidates from `first` on; their moments are about the place that `candidates` were gathered around.
-  void fill(const CloudView& cloud, const Neighborhood& candidates, std::uint32_t first,
-            const MomentScale& by) noexcept {
-    for (size_ = 0; size_ < most && first + size_ < candidates.size; size_ += simd::lanes) {
-      const NeighborLanes v = load_neighbors(candidates, first + size_);
-      const std::uint32_t left = candidates.size - first - size_;
-      std::uint32_t index[simd::lanes];
-      simd::store(index, v.index);
-      for (std::size_t lane = left; lane < simd::lanes; ++lane) index[lane] = index[0];
-      const PointLanes p = read_lanes(cloud.points, [&](std::size_t lane) { return std::size_t{index[lane]}; });
-      // What fills up the last register is nobody's neighbor: on the other side of the origin, beyond any radius.
-      const float nowhere = candidates.center.x > 0.0f ? -1.3e19f : 1.3e19f;
-      simd::store(x_ + size_, select(simd::first(left), p.x, simd::all(nowhere)));
-      simd::store(y_ + size_, p.y);
-      simd::store(z_ + size_, p.z);
-      const Terms each = terms_of(v, by);
-      unroll<Terms::kinds>([&](auto k) { simd::store(terms_[k] + size_, each.of[k]); });
-    }
-  }
-
-  /// Adds those that are neighbors of a point.
-  void add_neighbors(const Point& p, Radius radius, Moments& to) const noexcept {
-    const simd::F32 x = simd::all(p.x);
-    const simd::F32 y = simd::all(p.y);
-    const simd::F32 z = simd::all(p.z);
-    Moments sums = to;
-    for (std::uint32_t i = 0; i < size_; i += simd::lanes) {
-      const simd::F32 dx = simd::load(x_ + i) - x;
-      const simd::F32 dy = simd::load(y_ + i) - y;
-      const simd::F32 dz = simd::load(z_ + i) - z;
-      const simd::Mask near = (dx * dx + dy * dy) + dz * dz < simd::all(radius.squared);
-      add_where(near, sums, [&](auto k) { return simd::load(terms_[k] + i); });
-    }
-    to = sums;
-  }
-
- private:
-  alignas(simd::F32) float x_[most];
-  alignas(simd::F32) float y_[most];
-  alignas(simd::F32) float z_[most];
-  alignas(simd::F32) std::uint32_t terms_[Terms::kinds][most];
-  std::uint32_t size_ = 0;
-};
-
-/// The totals of moments whose lanes hold shares, one after the other.
-[[nodiscard]] inline Moments totals(const Moments* shares) noexcept {
-  Moments result;
-  const auto total = [&](const auto& share_of) {
-    std::uint32_t lanes[simd::lanes];
-    for (std::size_t k = 0; k < simd::lanes; ++k) lanes[k] = static_cast<std::uint32_t>(sum(share_of(shares[k])));
-    return simd::load(lanes);
-  };
-  result.members = total([](const Moments& m) { return m.members; });
-  unroll<Terms::kinds>([&](auto k) { result.of[k] = total([k](const Moments& m) { return m.of[k]; }); });
-  return result;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_BATCH_CANDIDATE_CHUNK_HPP
-
 // shortshot/batch/growing_workspace.hpp: a workspace that grows: one per thread. Hosted only: allocates.
 #ifndef SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
 #define SHORTSHOT_BATCH_GROWING_WORKSPACE_HPP
@@ -11029,7 +11090,7 @@ class NormalEstimator {
   }
 
  private:
-  static constexpr std::size_t group = 16;
+  static constexpr std::size_t group = PlaceGroup::most;
   static constexpr std::size_t smallest_part = 8;
   static constexpr float largest_shared = 1e18f;  // radius: CandidateChunk needs room beyond it
   static_assert(smallest_part % simd::lanes == 0, "whole registers");
@@ -11062,7 +11123,8 @@ class NormalEstimator {
     if (known != nullptr) {
       std::fill_n(found + first, count, *known);
     } else if (gather_for_all(first, count, candidates, wide)) {
-      estimate_together(first, count, candidates, wide, found);
+      const PlaceGroup places{x_ + first, y_ + first, z_ + first, count};
+      normals_widest(cloud_, candidates, wide, radius_, viewpoint_, places, &found[first].x);
       if (one_place) memory_.known.keep(place(first), KnownNormals::Way::together, candidates.found, found[first]);
     } else if (count > smallest_part) {
       estimate_part(first, count / 2);
@@ -11098,24 +11160,6 @@ class NormalEstimator {
            gather(center, wide, candidates) == Status::ok;
   }
 
-  /// Normals of these points; zeros for those that need to be looked at alone.
-  void estimate_together(std::size_t first, std::size_t count, const Neighborhood& candidates, Radius wide,
-                         SurfaceNormal (&found)[group]) const noexcept {
-    const MomentScale scale = moment_scale(candidates.size, wide.value);
-    Moments shares[group] = {};
-    CandidateChunk chunk;
-    for (std::uint32_t i = 0; i < candidates.size; i += CandidateChunk::most) {
-      chunk.fill(cloud_, candidates, i, scale);
-      for (std::size_t k = first; k < first + count; ++k) {
-        chunk.add_neighbors({x_[k], y_[k], z_[k]}, radius_, shares[k]);
-      }
-    }
-    for (std::size_t k = first; k < first + count; k += simd::lanes) {
-      const Moments moments = totals(shares + k);
-      store(found + k, keep(is_fine(moments, scale), normals_of(moments, scale, directions(viewpoint_, places(k)))));
-    }
-  }
-
   void estimate_alone(std::size_t k) {
     const Point p = place(k);
     SurfaceNormal& normal = normals_[index_[k]];
@@ -11139,11 +11183,6 @@ class NormalEstimator {
   }
 
   [[nodiscard]] Point place(std::size_t k) const noexcept { return {x_[k], y_[k], z_[k]}; }
-
-  /// Of a register.
-  [[nodiscard]] PointLanes places(std::size_t k) const noexcept {
-    return {simd::load(x_ + k), simd::load(y_ + k), simd::load(z_ + k)};
-  }
 
   [[nodiscard]] bool are_in_one_place(std::size_t first, std::size_t count) const noexcept {
     for (std::size_t k = first + 1; k < first + count; ++k) {

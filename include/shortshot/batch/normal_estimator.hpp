@@ -9,15 +9,15 @@
 #include "../base/simd.hpp"
 #include "../base/unfused.hpp"
 #include "../cloud/cloud.hpp"
-#include "../cloud/point_lanes.hpp"
 #include "../cloud/read.hpp"
 #include "../config.hpp"
+#include "../dispatch/widest.hpp"
 #include "../frame/normal.hpp"
+#include "../frame/normals_together.hpp"
 #include "../frame/viewpoint.hpp"
 #include "../search/neighborhood.hpp"
 #include "../search/radius.hpp"
 #include "../status.hpp"
-#include "candidate_chunk.hpp"
 #include "growing_workspace.hpp"
 #include "known_normals.hpp"
 #include "plausible.hpp"
@@ -72,7 +72,7 @@ class NormalEstimator {
   }
 
  private:
-  static constexpr std::size_t group = 16;
+  static constexpr std::size_t group = PlaceGroup::most;
   static constexpr std::size_t smallest_part = 8;
   static constexpr float largest_shared = 1e18f;  // radius: CandidateChunk needs room beyond it
   static_assert(smallest_part % simd::lanes == 0, "whole registers");
@@ -105,7 +105,8 @@ class NormalEstimator {
     if (known != nullptr) {
       std::fill_n(found + first, count, *known);
     } else if (gather_for_all(first, count, candidates, wide)) {
-      estimate_together(first, count, candidates, wide, found);
+      const PlaceGroup places{x_ + first, y_ + first, z_ + first, count};
+      normals_widest(cloud_, candidates, wide, radius_, viewpoint_, places, &found[first].x);
       if (one_place) memory_.known.keep(place(first), KnownNormals::Way::together, candidates.found, found[first]);
     } else if (count > smallest_part) {
       estimate_part(first, count / 2);
@@ -141,24 +142,6 @@ class NormalEstimator {
            gather(center, wide, candidates) == Status::ok;
   }
 
-  /// Normals of these points; zeros for those that need to be looked at alone.
-  void estimate_together(std::size_t first, std::size_t count, const Neighborhood& candidates, Radius wide,
-                         SurfaceNormal (&found)[group]) const noexcept {
-    const MomentScale scale = moment_scale(candidates.size, wide.value);
-    Moments shares[group] = {};
-    CandidateChunk chunk;
-    for (std::uint32_t i = 0; i < candidates.size; i += CandidateChunk::most) {
-      chunk.fill(cloud_, candidates, i, scale);
-      for (std::size_t k = first; k < first + count; ++k) {
-        chunk.add_neighbors({x_[k], y_[k], z_[k]}, radius_, shares[k]);
-      }
-    }
-    for (std::size_t k = first; k < first + count; k += simd::lanes) {
-      const Moments moments = totals(shares + k);
-      store(found + k, keep(is_fine(moments, scale), normals_of(moments, scale, directions(viewpoint_, places(k)))));
-    }
-  }
-
   void estimate_alone(std::size_t k) {
     const Point p = place(k);
     SurfaceNormal& normal = normals_[index_[k]];
@@ -182,11 +165,6 @@ class NormalEstimator {
   }
 
   [[nodiscard]] Point place(std::size_t k) const noexcept { return {x_[k], y_[k], z_[k]}; }
-
-  /// Of a register.
-  [[nodiscard]] PointLanes places(std::size_t k) const noexcept {
-    return {simd::load(x_ + k), simd::load(y_ + k), simd::load(z_ + k)};
-  }
 
   [[nodiscard]] bool are_in_one_place(std::size_t first, std::size_t count) const noexcept {
     for (std::size_t k = first + 1; k < first + count; ++k) {

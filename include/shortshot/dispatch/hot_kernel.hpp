@@ -6,7 +6,7 @@
 #include "../base/products.hpp"
 #include "../cloud/voxel_lanes.hpp"
 #include "../descriptor/compact.hpp"
-#include "../frame/normal.hpp"
+#include "../frame/normals_together.hpp"
 #include "../kernel/describe_at.hpp"
 #include "../search/cell_sort.hpp"
 

@@ -11,6 +11,8 @@
 #include "../cloud/voxel_lanes.hpp"
 #include "../config.hpp"
 #include "../frame/frame.hpp"
+#include "../frame/normals_together.hpp"
+#include "../frame/viewpoint.hpp"
 #include "../kernel/chunk.hpp"
 #include "../kernel/describe_at.hpp"
 #include "../kernel/support.hpp"
@@ -104,6 +106,21 @@ inline std::size_t place_widest(const CloudView& cloud, float leaf, std::size_t 
   }
 #endif
   return place_in_voxels(cloud, leaf, begin, number, d2);
+}
+
+/// normals_together().
+inline void normals_widest(const CloudView& cloud, const Neighborhood& candidates, Radius wide, Radius radius,
+                           const Viewpoint& viewpoint, const PlaceGroup& group, float* normals) noexcept {
+#if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
+  if (has_wider_lanes()) {
+    ::shortshot_avx2::detail::normals_together(
+        as_twin<::shortshot_avx2::CloudView>(cloud), as_twin<::shortshot_avx2::Neighborhood>(candidates),
+        as_twin<::shortshot_avx2::Radius>(wide), as_twin<::shortshot_avx2::Radius>(radius),
+        as_twin<::shortshot_avx2::Viewpoint>(viewpoint), as_twin<::shortshot_avx2::detail::PlaceGroup>(group), normals);
+    return;
+  }
+#endif
+  normals_together(cloud, candidates, wide, radius, viewpoint, group, normals);
 }
 
 /// multiply().

@@ -117,6 +117,21 @@ TEST_CASE("dispatch: the same key points") {
   }
 }
 
+TEST_CASE("dispatch: the same normals") {
+  const Choice choice;
+  const TestCloud cloud = surface();
+  std::vector<ss::SurfaceNormal> normals[2];
+  for (const bool wide : {false, true}) {
+    static_cast<void>(ss::extend::allow_wider_lanes(wide));
+    const ss::GridSearch grid(cloud.view(), radius);
+    REQUIRE(ss::estimate_normals(cloud.view(), grid, radius, ss::Viewpoint::towards({0.1f, 0.2f, 3.0f}),
+                                 normals[wide ? 1 : 0]) == Status::ok);
+  }
+  REQUIRE(normals[0].size() == cloud.size());
+  CHECK(normals[0][7].x == normals[0][7].x);
+  CHECK(std::memcmp(normals[0].data(), normals[1].data(), normals[0].size() * sizeof(ss::SurfaceNormal)) == 0);
+}
+
 TEST_CASE("dispatch: the same matches") {
   const Choice choice;
   const TestCloud cloud = surface();

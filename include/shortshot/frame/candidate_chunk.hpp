@@ -1,6 +1,6 @@
-// shortshot/batch/candidate_chunk.hpp: points that may be neighbors of a group of points, and what they add to moments.
-// Hosted only.
-#pragma once
+// shortshot/frame/candidate_chunk.hpp: points that may be neighbors of a group of points, and what they add to moments.
+#ifndef SHORTSHOT_FRAME_CANDIDATE_CHUNK_HPP
+#define SHORTSHOT_FRAME_CANDIDATE_CHUNK_HPP
 
 #include <cstddef>
 #include <cstdint>
@@ -10,9 +10,9 @@
 #include "../cloud/cloud.hpp"
 #include "../cloud/point_lanes.hpp"
 #include "../config.hpp"
-#include "../frame/normal.hpp"
 #include "../search/neighborhood.hpp"
 #include "../search/radius.hpp"
+#include "normal.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -81,3 +81,5 @@ class CandidateChunk {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_FRAME_CANDIDATE_CHUNK_HPP
