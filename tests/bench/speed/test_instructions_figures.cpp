@@ -108,7 +108,7 @@ TEST_CASE("a record that says nothing is refused") {
   CHECK_THROWS_WITH(parse_record(head + R"(, "instructions_per_neighbor": {"frame": 0}})"), "frame is not above zero");
 }
 
-TEST_CASE("the record of the project has all stages of a frame for two instruction sets") {
+TEST_CASE("the record of the project has all stages of a frame for two instruction sets and a baseline binary") {
   std::ifstream in(SHORTSHOT_TEST_DATA "/../../bench/speed/instructions/expected.json");
   REQUIRE(in);
   const Record record = parse_record({std::istreambuf_iterator<char>(in), {}});
@@ -121,13 +121,16 @@ TEST_CASE("the record of the project has all stages of a frame for two instructi
     }
   }
   for (const std::string isa : {"sse2", "avx2"}) {
-    for (const std::string stage : {"sample ", "index grid again ", "lab "})
+    for (const std::string stage : {"sample ", "index grid again ", "image normals ", "lab "})
       expected.push_back({stage + isa, 1.0, "point"});
   }
+  for (const std::string stage : {"sample ", "index grid again "})
+    expected.push_back({stage + "baseline", 1.0, "point"});
   for (const std::string isa : {"sse2", "avx2"}) {
     for (const std::string stage : {"mean shift ", "whole frame Scsh336 "})
       expected.push_back({stage + isa, 1.0, "frame"});
   }
+  expected.push_back({"whole frame Scsh336 baseline", 1.0, "frame"});
   REQUIRE(record.figures.size() == expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) CHECK(record.figures[i].name == expected[i].name);
 }

@@ -179,7 +179,7 @@ TEST_CASE("a cloud without colors and intensities has the stages that need none"
   scene.intensity.clear();
   const Workload workload = make_workload(std::move(scene), {});
   const std::vector<StageBuild> builds = build_stages(workload);
-  CHECK(builds[0].stages.size() == 17);
+  CHECK(builds[0].stages.size() == 18);
   for (const Stage& stage : builds[0].stages) {
     CAPTURE(stage.name);
     CHECK(stage.name.find("Scsh") == std::string::npos);
@@ -194,7 +194,7 @@ TEST_CASE("a cloud with intensities and no colors has their stages, too") {
   scene.rgb.clear();
   const Workload workload = make_workload(std::move(scene), {});
   const std::vector<StageBuild> builds = build_stages(workload);
-  CHECK(builds[0].stages.size() == 19);
+  CHECK(builds[0].stages.size() == 20);
   const auto is_intensity = [](const Stage& stage) { return stage.name == "kernel IntensityShape336"; };
   CHECK(std::count_if(builds[0].stages.begin(), builds[0].stages.end(), is_intensity) == 1);
 }
