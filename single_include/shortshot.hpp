@@ -1808,21 +1808,32 @@ template <class Function>
   return is_negative(below(p.x) & below(p.y) & below(p.z));
 }
 
+/// Some points, and which of them have three finite coordinates; the others are zeros.
+struct ValidLanes {
+  PointLanes points;
+  simd::Mask valid;
+};
+
+/// `count` points from index `first` on, at most a register, at least one. Beyond them nothing is read or valid.
+[[nodiscard, gnu::always_inline]] inline ValidLanes read_valid(const Float3Channel& channel, std::size_t first,
+                                                               std::size_t count) noexcept {
+  const bool whole = count >= simd::lanes;
+  PointLanes p = whole
+                     ? read_lanes(channel, [=](std::size_t lane) { return first + lane; })
+                     : read_lanes(channel, [=](std::size_t lane) { return first + (lane < count ? lane : count - 1); });
+  const simd::Mask valid = whole ? is_finite(p) : is_finite(p) & simd::first(count);
+  if (!every(valid)) p = {keep(valid, p.x), keep(valid, p.y), keep(valid, p.z)};
+  return {p, valid};
+}
+
 /// Calls f(index, points, valid) for registers of points in order: the first one's index, and which lanes have three
 /// finite coordinates. At least one has; registers without are passed over. The other lanes are zeros. The view comes
 /// by value: no store that f makes can change it.
 template <class Function>
 [[gnu::always_inline]] inline void for_each_valid_register(const CloudView cloud, Function f) {
-  const std::size_t last = cloud.size - 1;
   for (std::size_t i = 0; i < cloud.size; i += simd::lanes) {
-    const bool whole = cloud.size - i >= simd::lanes;
-    PointLanes points =
-        whole ? read_lanes(cloud.points, [i](std::size_t lane) { return i + lane; })
-              : read_lanes(cloud.points, [=](std::size_t lane) { return i + lane < last ? i + lane : last; });
-    const simd::Mask valid = whole ? is_finite(points) : is_finite(points) & simd::first(cloud.size - i);
-    if (!any(valid)) continue;
-    if (!every(valid)) points = {keep(valid, points.x), keep(valid, points.y), keep(valid, points.z)};
-    f(i, points, valid);
+    const ValidLanes read = read_valid(cloud.points, i, cloud.size - i);
+    if (any(read.valid)) f(i, read.points, read.valid);
   }
 }
 
@@ -1878,18 +1889,12 @@ inline std::size_t place_in_voxels(const CloudView& cloud, float leaf, std::size
   const std::size_t size = left < voxel_block ? left : voxel_block;
   const Float3Channel channel = cloud.points;
   for (std::size_t i = 0; i < size; i += simd::lanes) {
-    const bool whole = size - i >= simd::lanes;
-    const std::size_t first = begin + i;
-    PointLanes points =
-        whole ? read_lanes(channel, [first](std::size_t lane) { return first + lane; })
-              : read_lanes(channel, [=](std::size_t lane) { return i + lane < size ? first + lane : first; });
-    const simd::Mask valid = is_finite(points);
+    const ValidLanes read = read_valid(channel, begin + i, size - i);
     simd::store(d2 + i, simd::all(-1.0f));
-    if (!any(valid)) continue;
-    if (!every(valid)) points = {keep(valid, points.x), keep(valid, points.y), keep(valid, points.z)};
-    const VoxelLanes voxels = voxels_of(points, leaf);
+    if (!any(read.valid)) continue;
+    const VoxelLanes voxels = voxels_of(read.points, leaf);
     unroll<3>([&](auto axis) { simd::store(number[axis] + i, voxels.number[axis]); });
-    simd::store(d2 + i, select(valid, voxels.d2, simd::all(-1.0f)));
+    simd::store(d2 + i, select(read.valid, voxels.d2, simd::all(-1.0f)));
   }
   return size;
 }
@@ -8396,6 +8401,51 @@ struct PinholeLine {
   }
 };
 
+/// Is it an image, of at least one column? (Whatever the view says, nothing overflows.)
+[[nodiscard]] inline bool is_image(const CloudView& cloud) noexcept {
+  return cloud.height > 1 && cloud.width > 0 && cloud.size / cloud.width == cloud.height &&
+         cloud.size % cloud.width == 0;
+}
+
+/// Calls add(column, row, x / z, y / z) for every `step`-th pixel whose point is valid and not in the camera's own
+/// plane.
+template <class Add>
+inline void for_pixels(const CloudView& cloud, std::size_t step, Add add) noexcept {
+  for (std::size_t i = 0; i < cloud.size; i += step) {
+    const Point p = point(cloud, i);
+    if (!is_finite(p) || p.z == 0.0f) continue;
+    const std::size_t row = i / cloud.width;
+    add(static_cast<float>(i - row * cloud.width), static_cast<float>(row), p.x / p.z, p.y / p.z);
+  }
+}
+
+/// The camera of an image by every `step`-th point. not_organized: they deviate from every pinhole by more than a
+/// quarter of the image.
+[[nodiscard]] inline Status fit_pinhole(const CloudView& cloud, std::size_t step, Projection& columns,
+                                        Projection& rows) noexcept {
+  PinholeLine u_line{};
+  PinholeLine v_line{};
+  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
+    u_line.add_to_mean(x, u);
+    v_line.add_to_mean(y, v);
+  });
+  if (!u_line.is_finite() || !v_line.is_finite()) return Status::not_organized;
+  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
+    u_line.add_to_slope(x, u);
+    v_line.add_to_slope(y, v);
+  });
+  if (!u_line.is_finite() || !v_line.is_finite()) return Status::not_organized;
+  columns = u_line.projection();
+  rows = v_line.projection();
+  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
+    columns.widen(x, u);
+    rows.widen(y, v);
+  });
+  const bool is_pinhole = columns.error <= 0.25f * static_cast<float>(cloud.width) &&
+                          rows.error <= 0.25f * static_cast<float>(cloud.height);
+  return is_pinhole ? Status::ok : Status::not_organized;
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_SEARCH_PINHOLE_HPP
@@ -8480,23 +8530,10 @@ class OrganizedSearch {
                           : 0};
   }
 
-  /// Calls f(column, row, x / z, y / z) for each valid point.
-  template <class Function>
-  void for_each_pixel(Function f) const noexcept {
-    extend::for_each_valid(cloud_, [&](std::size_t i, const Point& p) {
-      const std::size_t row = i / cloud_.width;
-      const std::size_t column = i % cloud_.width;
-      f(static_cast<float>(column), static_cast<float>(row), p.x / p.z, p.y / p.z);
-    });
-  }
-
   [[nodiscard]] Status fit() noexcept {
     const Status usable = validate(cloud_);
     if (usable != Status::ok) return usable;
-    if (cloud_.height < 2 || cloud_.width < 2 || cloud_.size / cloud_.width != cloud_.height ||
-        cloud_.size % cloud_.width != 0) {
-      return Status::not_organized;
-    }
+    if (!detail::is_image(cloud_) || cloud_.width < 2) return Status::not_organized;
     bool front = false;
     bool behind = false;
     bool nowhere = false;  // in the camera's own plane: in no pixel
@@ -8507,28 +8544,7 @@ class OrganizedSearch {
     });
     if (!front && !behind && !nowhere) return Status::empty_cloud;
     if ((front && behind) || nowhere) return Status::not_organized;
-
-    detail::PinholeLine columns{};
-    detail::PinholeLine rows{};
-    for_each_pixel([&](float u, float v, float x, float y) {
-      columns.add_to_mean(x, u);
-      rows.add_to_mean(y, v);
-    });
-    if (!columns.is_finite() || !rows.is_finite()) return Status::not_organized;
-    for_each_pixel([&](float u, float v, float x, float y) {
-      columns.add_to_slope(x, u);
-      rows.add_to_slope(y, v);
-    });
-    if (!columns.is_finite() || !rows.is_finite()) return Status::not_organized;
-    columns_ = columns.projection();
-    rows_ = rows.projection();
-    for_each_pixel([&](float u, float v, float x, float y) {
-      columns_.widen(x, u);
-      rows_.widen(y, v);
-    });
-    const bool pinhole = columns_.error <= 0.25f * static_cast<float>(cloud_.width) &&
-                         rows_.error <= 0.25f * static_cast<float>(cloud_.height);
-    return pinhole ? Status::ok : Status::not_organized;
+    return detail::fit_pinhole(cloud_, 1, columns_, rows_);
   }
 
   CloudView cloud_;
@@ -9892,6 +9908,31 @@ Status view_point_cloud2(const Message&& message, CloudView& view) = delete;
 #ifndef SHORTSHOT_DISPATCH_TWINS_HPP
 #define SHORTSHOT_DISPATCH_TWINS_HPP
 
+// shortshot/base/same_bits.hpp: a value as another type of plain data.
+#ifndef SHORTSHOT_BASE_SAME_BITS_HPP
+#define SHORTSHOT_BASE_SAME_BITS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// C++20's std::bit_cast.
+template <class To, class From>
+[[nodiscard, gnu::always_inline]] inline To same_bits(const From& from) noexcept {
+  static_assert(
+      sizeof(To) == sizeof(From) && std::is_trivially_copyable<To>::value && std::is_trivially_copyable<From>::value,
+      "plain data of one size");
+  union Uninitialized {
+    Uninitialized() noexcept {}
+    To value;
+  } to;
+  std::memcpy(static_cast<void*>(&to.value), &from, sizeof from);
+  return to.value;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_BASE_SAME_BITS_HPP
+
 // shortshot/dispatch/kernel_for_avx2.hpp: the kernel a second time, for AVX2, where the compiler was told of a plain
 // x86-64 only. Distributions build such programs, and machines without AVX2 have become rare. Hosted only.
 //
@@ -10041,7 +10082,11 @@ using IfTwins = std::enable_if_t<std::conjunction<HasTwin<T>...>::value>;
   };
 SHORTSHOT_TWIN(CloudIntensities)
 SHORTSHOT_TWIN(CloudNormals)
+SHORTSHOT_TWIN(CloudView)
 SHORTSHOT_TWIN(CshotLab)
+SHORTSHOT_TWIN(Frame)
+SHORTSHOT_TWIN(FrameConfidence)
+SHORTSHOT_TWIN(GridMemory<std::uint32_t>)
 SHORTSHOT_TWIN(HardVoting)
 SHORTSHOT_TWIN(HeightCells)
 SHORTSHOT_TWIN(KeyPointColor)
@@ -10049,12 +10094,20 @@ SHORTSHOT_TWIN(LabColors)
 SHORTSHOT_TWIN(LinearRadius)
 SHORTSHOT_TWIN(MeanColor)
 SHORTSHOT_TWIN(MultilinearVoting)
+SHORTSHOT_TWIN(Neighborhood)
 SHORTSHOT_TWIN(Occupancy)
 SHORTSHOT_TWIN(PclLab)
 SHORTSHOT_TWIN(PlainSums)
+SHORTSHOT_TWIN(Point)
 SHORTSHOT_TWIN(PublishedCells)
 SHORTSHOT_TWIN(PublishedLab)
+SHORTSHOT_TWIN(Radius)
 SHORTSHOT_TWIN(ShotCells)
+SHORTSHOT_TWIN(Support)
+SHORTSHOT_TWIN(Viewpoint)
+SHORTSHOT_TWIN(detail::Grid<std::uint32_t>)
+SHORTSHOT_TWIN(detail::GridContents<std::uint32_t>)
+SHORTSHOT_TWIN(detail::PlaceGroup)
 SHORTSHOT_TWIN_OF_NUMBERS(AdditiveVoting)
 SHORTSHOT_TWIN_OF_NUMBERS(SeparateVoting)
 SHORTSHOT_TWIN_OF_NUMBERS(Intensity)
@@ -10097,18 +10150,14 @@ struct Twin<extend::SourceSet<Sources...>, IfTwins<Sources...>> {
   using type = ::shortshot_avx2::extend::SourceSet<TwinOf<Sources>...>;
 };
 
-/// A value as its twin: the same text made both types, so that they have the same bytes.
-template <class To, class From>
-[[nodiscard]] inline To as_twin(const From& from) noexcept {
-  static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From) && std::is_trivially_copyable<To>::value &&
-                    std::is_trivially_copyable<From>::value,
-                "twins are plain data of one size");
-  union Uninitialized {
-    Uninitialized() noexcept {}
-    To value;
-  } to;
-  std::memcpy(static_cast<void*>(&to.value), &from, sizeof from);
-  return to.value;
+/// A value as its twin, and back: the same text made both types, so that they have the same bytes.
+template <class T>
+[[nodiscard]] inline TwinOf<T> twin_of(const T& value) noexcept {
+  return same_bits<TwinOf<T>>(value);
+}
+template <class T>
+inline void take_back(T& value, const TwinOf<T>& twin) noexcept {
+  value = same_bits<T>(twin);
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -10160,14 +10209,12 @@ template <class D, class Sources>
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
   if constexpr (HasTwin<D>::value && HasTwin<Sources>::value) {
     if (has_wider_lanes()) {
-      auto twin_frame = as_twin<::shortshot_avx2::Frame>(frame);
-      auto twin_confidence = as_twin<::shortshot_avx2::FrameConfidence>(confidence);
+      auto its_frame = twin_of(frame);
+      auto its_confidence = twin_of(confidence);
       const auto status = ::shortshot_avx2::detail::describe_gathered<TwinOf<D>, default_chunk_size>(
-          as_twin<::shortshot_avx2::Neighborhood>(n), as_twin<TwinOf<Sources>>(sources),
-          as_twin<::shortshot_avx2::Point>(center), as_twin<::shortshot_avx2::Support>(support), twin_frame, out,
-          twin_confidence);
-      frame = as_twin<Frame>(twin_frame);
-      confidence = as_twin<FrameConfidence>(twin_confidence);
+          twin_of(n), twin_of(sources), twin_of(center), twin_of(support), its_frame, out, its_confidence);
+      take_back(frame, its_frame);
+      take_back(confidence, its_confidence);
       return static_cast<Status>(status);
     }
   }
@@ -10182,9 +10229,8 @@ template <class D, class Sources>
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
   if constexpr (HasTwin<D>::value && HasTwin<Sources>::value) {
     if (has_wider_lanes()) {
-      return static_cast<Status>(::shortshot_avx2::describe<TwinOf<D>>(
-          as_twin<::shortshot_avx2::Neighborhood>(n), as_twin<TwinOf<Sources>>(sources),
-          as_twin<::shortshot_avx2::Frame>(frame), as_twin<::shortshot_avx2::Radius>(radius), out));
+      return static_cast<Status>(
+          ::shortshot_avx2::describe<TwinOf<D>>(twin_of(n), twin_of(sources), twin_of(frame), twin_of(radius), out));
     }
   }
 #endif
@@ -10196,8 +10242,7 @@ inline std::size_t place_widest(const CloudView& cloud, float leaf, std::size_t 
                                 float (&d2)[voxel_block]) noexcept {
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
   if (has_wider_lanes()) {
-    return ::shortshot_avx2::detail::place_in_voxels(as_twin<::shortshot_avx2::CloudView>(cloud), leaf, begin, number,
-                                                     d2);
+    return ::shortshot_avx2::detail::place_in_voxels(twin_of(cloud), leaf, begin, number, d2);
   }
 #endif
   return place_in_voxels(cloud, leaf, begin, number, d2);
@@ -10208,10 +10253,8 @@ inline void normals_widest(const CloudView& cloud, const Neighborhood& candidate
                            const Viewpoint& viewpoint, const PlaceGroup& group, float* normals) noexcept {
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
   if (has_wider_lanes()) {
-    ::shortshot_avx2::detail::normals_together(
-        as_twin<::shortshot_avx2::CloudView>(cloud), as_twin<::shortshot_avx2::Neighborhood>(candidates),
-        as_twin<::shortshot_avx2::Radius>(wide), as_twin<::shortshot_avx2::Radius>(radius),
-        as_twin<::shortshot_avx2::Viewpoint>(viewpoint), as_twin<::shortshot_avx2::detail::PlaceGroup>(group), normals);
+    ::shortshot_avx2::detail::normals_together(twin_of(cloud), twin_of(candidates), twin_of(wide), twin_of(radius),
+                                               twin_of(viewpoint), twin_of(group), normals);
     return;
   }
 #endif
@@ -10238,14 +10281,12 @@ template <class Neighbors>
 [[nodiscard]] inline Status gather_widest(const HostGrid& grid, const GridContents<std::uint32_t>& contents,
                                           const Point& center, Radius radius, Neighbors& out) noexcept {
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
-  if constexpr (std::is_same<Neighbors, Neighborhood>::value) {
+  if constexpr (HasTwin<Neighbors>::value) {
     if (has_wider_lanes()) {
-      auto twin = as_twin<::shortshot_avx2::Neighborhood>(out);
-      const auto status = ::shortshot_avx2::detail::gather_from(
-          as_twin<::shortshot_avx2::detail::Grid<std::uint32_t>>(grid),
-          as_twin<::shortshot_avx2::detail::GridContents<std::uint32_t>>(contents),
-          as_twin<::shortshot_avx2::Point>(center), as_twin<::shortshot_avx2::Radius>(radius), twin);
-      out = as_twin<Neighborhood>(twin);
+      auto its_neighbors = twin_of(out);
+      const auto status = ::shortshot_avx2::detail::gather_from(twin_of(grid), twin_of(contents), twin_of(center),
+                                                                twin_of(radius), its_neighbors);
+      take_back(out, its_neighbors);
       return static_cast<Status>(status);
     }
   }
@@ -10258,10 +10299,9 @@ template <class Neighbors>
                                         const GridMemory<std::uint32_t>& memory) noexcept {
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
   if (has_wider_lanes()) {
-    auto twin = as_twin<::shortshot_avx2::detail::Grid<std::uint32_t>>(grid);
-    const auto status = twin.plan(as_twin<::shortshot_avx2::CloudView>(cloud), cell_size,
-                                  as_twin<::shortshot_avx2::GridMemory<std::uint32_t>>(memory));
-    grid = as_twin<HostGrid>(twin);
+    auto its_grid = twin_of(grid);
+    const auto status = its_grid.plan(twin_of(cloud), cell_size, twin_of(memory));
+    take_back(grid, its_grid);
     return static_cast<Status>(status);
   }
 #endif
@@ -10273,8 +10313,7 @@ inline void sort_widest(const HostGrid& grid, const CloudView& cloud,
                         const GridMemory<std::uint32_t>& memory) noexcept {
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
   if (has_wider_lanes()) {
-    as_twin<::shortshot_avx2::detail::Grid<std::uint32_t>>(grid).sort(
-        as_twin<::shortshot_avx2::CloudView>(cloud), as_twin<::shortshot_avx2::GridMemory<std::uint32_t>>(memory));
+    twin_of(grid).sort(twin_of(cloud), twin_of(memory));
     return;
   }
 #endif
@@ -11065,8 +11104,7 @@ class NormalEstimator {
         needed_(needed),
         memory_(memory),
         normals_(normals) {
-    const bool image = cloud.height > 1 && cloud.size % cloud.height == 0 && cloud.size / cloud.height == cloud.width;
-    row_ = image ? cloud.width : 0;
+    row_ = is_image(cloud) ? cloud.width : 0;
   }
 
   /// Of the k-th to the one before the end-th point; `normals` has NaN for all of them before.
@@ -11335,51 +11373,10 @@ struct ImageGeometry {
   }
 };
 
-/// Calls add(column, row, x / z, y / z) for every `step`-th pixel that is no hole.
-template <class Add>
-inline void for_pixels(const CloudView& cloud, std::size_t step, Add add) noexcept {
-  for (std::size_t i = 0; i < cloud.size; i += step) {
-    const Point p = point(cloud, i);
-    if (!is_finite(p) || p.z == 0.0f) continue;
-    const std::size_t row = i / cloud.width;
-    add(static_cast<float>(i - row * cloud.width), static_cast<float>(row), p.x / p.z, p.y / p.z);
-  }
-}
-
-/// The camera by every `step`-th point. not_organized: they deviate from every pinhole by more than a quarter of the
-/// image, as in OrganizedSearch.
-[[nodiscard]] inline Status fit_camera(const CloudView& cloud, std::size_t step, Projection& columns,
-                                       Projection& rows) noexcept {
-  PinholeLine u_line{};
-  PinholeLine v_line{};
-  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
-    u_line.add_to_mean(x, u);
-    v_line.add_to_mean(y, v);
-  });
-  if (!u_line.is_finite() || !v_line.is_finite()) return Status::not_organized;
-  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
-    u_line.add_to_slope(x, u);
-    v_line.add_to_slope(y, v);
-  });
-  if (!u_line.is_finite() || !v_line.is_finite()) return Status::not_organized;
-  columns = u_line.projection();
-  rows = v_line.projection();
-  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
-    columns.widen(x, u);
-    rows.widen(y, v);
-  });
-  const bool is_pinhole = columns.error <= 0.25f * static_cast<float>(cloud.width) &&
-                          rows.error <= 0.25f * static_cast<float>(cloud.height);
-  return is_pinhole ? Status::ok : Status::not_organized;
-}
-
 /// empty_cloud; not_organized: not an image, or not a pinhole camera's, which is looked for in some thousand of the
 /// points.
 [[nodiscard]] inline Status measure_image(const CloudView& cloud, Radius radius, ImageGeometry& geometry) noexcept {
-  if (cloud.height < 2 || cloud.width < 2 || cloud.size / cloud.width != cloud.height ||
-      cloud.size % cloud.width != 0) {
-    return Status::not_organized;
-  }
+  if (!is_image(cloud) || cloud.width < 2) return Status::not_organized;
   simd::F32 farthest = simd::all(0.0f);
   simd::F32 behind = simd::all(0.0f);
   simd::F32 nearest = simd::all(3e38f);
@@ -11397,8 +11394,8 @@ inline void for_pixels(const CloudView& cloud, std::size_t step, Add add) noexce
   const std::size_t step = cloud.size / most_looked_at | 1;  // odd: it meets all columns of most widths
   Projection columns{};
   Projection rows{};
-  Status status = fit_camera(cloud, step, columns, rows);
-  if (!(columns.focal * rows.focal != 0.0f)) status = fit_camera(cloud, 1, columns, rows);
+  Status status = fit_pinhole(cloud, step, columns, rows);
+  if (!(columns.focal * rows.focal != 0.0f)) status = fit_pinhole(cloud, 1, columns, rows);
   if (status != Status::ok) return status;
   constexpr float half_of_square = 0.8660254f;  // of a disc's radius
   constexpr float steepest = 8.0f;              // 83 degrees: noise and steps of the depth look steep, too
@@ -11434,14 +11431,6 @@ inline namespace SHORTSHOT_CODE {
 using WrappingLanes = std::uint32_t __attribute__((vector_size(4 * simd::lanes)));
 inline constexpr int lane_count = static_cast<int>(simd::lanes);
 using WrappingQuad = std::uint32_t __attribute__((vector_size(16)));
-
-template <class To, class From>
-[[nodiscard, gnu::always_inline]] inline To same_bits(const From& from) noexcept {
-  static_assert(sizeof(To) == sizeof(From), "of one size");
-  To to;
-  std::memcpy(&to, &from, sizeof to);
-  return to;
-}
 
 /// What pixels add up to.
 struct PixelSums {
@@ -11551,32 +11540,15 @@ struct WholePoint {
 /// The whole numbers that a radius counts for: what is lost in rounding means nothing next to any camera's noise.
 inline constexpr std::int32_t steps_of_radius = 32;
 
-/// Points of a register of pixels; zeros where they are not finite, which no comparison shall meet.
-struct PixelPoints {
-  PointLanes at;
-  simd::Mask valid;
-};
-
-/// `count` from index `first` on, at most a register.
-[[nodiscard, gnu::always_inline]] inline PixelPoints read_pixels(const CloudView& cloud, std::size_t first,
-                                                                 std::size_t count) noexcept {
-  const bool whole = count >= simd::lanes;
-  const PointLanes p =
-      whole ? read_lanes(cloud.points, [=](std::size_t lane) { return first + lane; })
-            : read_lanes(cloud.points, [=](std::size_t lane) { return first + (lane < count ? lane : count - 1); });
-  const simd::Mask valid = whole ? is_finite(p) : is_finite(p) & simd::first(count);
-  return {{keep(valid, p.x), keep(valid, p.y), keep(valid, p.z)}, valid};
-}
-
 /// Points in these steps. Those that float does not hold as finely are none, and those in the camera's own plane: many
 /// drivers write (0, 0, 0) for "no measurement".
-[[nodiscard, gnu::always_inline]] inline PixelLanes in_steps(const PixelPoints& p, simd::F32 scale) noexcept {
-  const simd::F32 x = p.at.x * scale;
-  const simd::F32 y = p.at.y * scale;
-  const simd::F32 z = p.at.z * scale;
+[[nodiscard, gnu::always_inline]] inline PixelLanes in_steps(const ValidLanes& p, simd::F32 scale) noexcept {
+  const simd::F32 x = p.points.x * scale;
+  const simd::F32 y = p.points.y * scale;
+  const simd::F32 z = p.points.z * scale;
   const simd::F32 most = simd::all(4194303.0f);  // what to_whole() can take
-  const simd::Mask usable =
-      p.valid & (p.at.z != simd::all(0.0f)) & (simd::max(simd::max(simd::abs(x), simd::abs(y)), simd::abs(z)) < most);
+  const simd::Mask usable = p.valid & (p.points.z != simd::all(0.0f)) &
+                            (simd::max(simd::max(simd::abs(x), simd::abs(y)), simd::abs(z)) < most);
   return {usable, to_whole(keep(usable, x)), to_whole(keep(usable, y)), to_whole(keep(usable, z))};
 }
 
@@ -11690,7 +11662,7 @@ class ImageSums {
 
   [[nodiscard]] PixelLanes read_register(std::size_t column) const noexcept {
     const std::size_t left = std::min(simd::lanes, cloud_.width - column);
-    return in_steps(read_pixels(cloud_, next_ * cloud_.width + column, left), simd::all(scale_));
+    return in_steps(read_valid(cloud_.points, next_ * cloud_.width + column, left), simd::all(scale_));
   }
 
   /// The depth that a hole at the row's beginning has: the first one that there is.
@@ -11908,17 +11880,17 @@ class ImageBand {
     const CloudView& cloud = task.cloud;
     const std::size_t count = std::min(simd::lanes, cloud.width - column);
     const std::size_t first = row * cloud.width + column;
-    const PixelPoints points = read_pixels(cloud, first, count);
-    const PixelLanes pixels = in_steps(points, simd::all(scale_));
+    const ValidLanes read = read_valid(cloud.points, first, count);
+    const PixelLanes pixels = in_steps(read, simd::all(scale_));
     constexpr float none = std::numeric_limits<float>::quiet_NaN();
     if (!any(pixels.valid) || !is_needed(task, first, count)) {
       std::fill_n(normals, count, SurfaceNormal{none, none, none});
       return;
     }
-    const SumLanes sums = sums_of_windows(task, row, column, pixels, simd::abs(points.at.z));
+    const SumLanes sums = sums_of_windows(task, row, column, pixels, simd::abs(read.points.z));
     const WrappingLanes center[3] = {wrapping(pixels.x), wrapping(pixels.y), wrapping(pixels.z)};
     const DirectionLanes least = least_scatter(scatter_of(sums, center), to_float(same_bits<simd::I32>(sums.of[0])));
-    const PointLanes found = turned(least, pixels.valid, directions(task.viewpoint, points.at));
+    const PointLanes found = turned(least, pixels.valid, directions(task.viewpoint, read.points));
     if (count == simd::lanes) {
       store(normals, found);
     } else {

@@ -11,6 +11,7 @@
 #include <limits>
 #include <random>
 #include <set>
+#include <type_traits>
 #include <vector>
 
 #include "under_test.hpp"
@@ -198,8 +199,10 @@ bool refuses(const Search& search, const ss::Point& center, ss::Radius radius, s
   return search.status() == expected && search.gather(center, radius, n) == expected && n.size == 0 && n.found == 0;
 }
 
-inline bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
+template <class T>
+bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  static_assert(std::is_trivially_copyable<T>::value, "plain data, without gaps");
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
 }
 
 inline bool all_zero(const std::vector<float>& values) {  // false for NaN

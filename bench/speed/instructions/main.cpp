@@ -35,9 +35,8 @@ const std::string compiler = "GCC " TEXT(__GNUC__) MACHINE;
 #endif
 const std::string workload =
     "generated tabletop, 640 x 480, seed 1, R = 0.04 m, 100 key points; normals: all points, R = 0.01 m; sample: "
-    "voxels "
-    "of 0.01 m; whole frame: from raw points, 1000 of the key points so sampled; mean shift: 2000 votes in a cubic "
-    "meter";
+    "voxels of 0.01 m; whole frame: from raw points, 1000 of the key points so sampled; mean shift: 2000 votes in a "
+    "cubic meter";
 
 bool is_gated(const std::string& stage) {
   for (const char* name :

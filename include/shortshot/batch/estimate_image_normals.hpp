@@ -80,17 +80,17 @@ class ImageBand {
     const CloudView& cloud = task.cloud;
     const std::size_t count = std::min(simd::lanes, cloud.width - column);
     const std::size_t first = row * cloud.width + column;
-    const PixelPoints points = read_pixels(cloud, first, count);
-    const PixelLanes pixels = in_steps(points, simd::all(scale_));
+    const ValidLanes read = read_valid(cloud.points, first, count);
+    const PixelLanes pixels = in_steps(read, simd::all(scale_));
     constexpr float none = std::numeric_limits<float>::quiet_NaN();
     if (!any(pixels.valid) || !is_needed(task, first, count)) {
       std::fill_n(normals, count, SurfaceNormal{none, none, none});
       return;
     }
-    const SumLanes sums = sums_of_windows(task, row, column, pixels, simd::abs(points.at.z));
+    const SumLanes sums = sums_of_windows(task, row, column, pixels, simd::abs(read.points.z));
     const WrappingLanes center[3] = {wrapping(pixels.x), wrapping(pixels.y), wrapping(pixels.z)};
     const DirectionLanes least = least_scatter(scatter_of(sums, center), to_float(same_bits<simd::I32>(sums.of[0])));
-    const PointLanes found = turned(least, pixels.valid, directions(task.viewpoint, points.at));
+    const PointLanes found = turned(least, pixels.valid, directions(task.viewpoint, read.points));
     if (count == simd::lanes) {
       store(normals, found);
     } else {

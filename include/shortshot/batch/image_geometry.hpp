@@ -39,51 +39,10 @@ struct ImageGeometry {
   }
 };
 
-/// Calls add(column, row, x / z, y / z) for every `step`-th pixel that is no hole.
-template <class Add>
-inline void for_pixels(const CloudView& cloud, std::size_t step, Add add) noexcept {
-  for (std::size_t i = 0; i < cloud.size; i += step) {
-    const Point p = point(cloud, i);
-    if (!is_finite(p) || p.z == 0.0f) continue;
-    const std::size_t row = i / cloud.width;
-    add(static_cast<float>(i - row * cloud.width), static_cast<float>(row), p.x / p.z, p.y / p.z);
-  }
-}
-
-/// The camera by every `step`-th point. not_organized: they deviate from every pinhole by more than a quarter of the
-/// image, as in OrganizedSearch.
-[[nodiscard]] inline Status fit_camera(const CloudView& cloud, std::size_t step, Projection& columns,
-                                       Projection& rows) noexcept {
-  PinholeLine u_line{};
-  PinholeLine v_line{};
-  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
-    u_line.add_to_mean(x, u);
-    v_line.add_to_mean(y, v);
-  });
-  if (!u_line.is_finite() || !v_line.is_finite()) return Status::not_organized;
-  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
-    u_line.add_to_slope(x, u);
-    v_line.add_to_slope(y, v);
-  });
-  if (!u_line.is_finite() || !v_line.is_finite()) return Status::not_organized;
-  columns = u_line.projection();
-  rows = v_line.projection();
-  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
-    columns.widen(x, u);
-    rows.widen(y, v);
-  });
-  const bool is_pinhole = columns.error <= 0.25f * static_cast<float>(cloud.width) &&
-                          rows.error <= 0.25f * static_cast<float>(cloud.height);
-  return is_pinhole ? Status::ok : Status::not_organized;
-}
-
 /// empty_cloud; not_organized: not an image, or not a pinhole camera's, which is looked for in some thousand of the
 /// points.
 [[nodiscard]] inline Status measure_image(const CloudView& cloud, Radius radius, ImageGeometry& geometry) noexcept {
-  if (cloud.height < 2 || cloud.width < 2 || cloud.size / cloud.width != cloud.height ||
-      cloud.size % cloud.width != 0) {
-    return Status::not_organized;
-  }
+  if (!is_image(cloud) || cloud.width < 2) return Status::not_organized;
   simd::F32 farthest = simd::all(0.0f);
   simd::F32 behind = simd::all(0.0f);
   simd::F32 nearest = simd::all(3e38f);
@@ -101,8 +60,8 @@ inline void for_pixels(const CloudView& cloud, std::size_t step, Add add) noexce
   const std::size_t step = cloud.size / most_looked_at | 1;  // odd: it meets all columns of most widths
   Projection columns{};
   Projection rows{};
-  Status status = fit_camera(cloud, step, columns, rows);
-  if (!(columns.focal * rows.focal != 0.0f)) status = fit_camera(cloud, 1, columns, rows);
+  Status status = fit_pinhole(cloud, step, columns, rows);
+  if (!(columns.focal * rows.focal != 0.0f)) status = fit_pinhole(cloud, 1, columns, rows);
   if (status != Status::ok) return status;
   constexpr float half_of_square = 0.8660254f;  // of a disc's radius
   constexpr float steepest = 8.0f;              // 83 degrees: noise and steps of the depth look steep, too

@@ -31,32 +31,15 @@ struct WholePoint {
 /// The whole numbers that a radius counts for: what is lost in rounding means nothing next to any camera's noise.
 inline constexpr std::int32_t steps_of_radius = 32;
 
-/// Points of a register of pixels; zeros where they are not finite, which no comparison shall meet.
-struct PixelPoints {
-  PointLanes at;
-  simd::Mask valid;
-};
-
-/// `count` from index `first` on, at most a register.
-[[nodiscard, gnu::always_inline]] inline PixelPoints read_pixels(const CloudView& cloud, std::size_t first,
-                                                                 std::size_t count) noexcept {
-  const bool whole = count >= simd::lanes;
-  const PointLanes p =
-      whole ? read_lanes(cloud.points, [=](std::size_t lane) { return first + lane; })
-            : read_lanes(cloud.points, [=](std::size_t lane) { return first + (lane < count ? lane : count - 1); });
-  const simd::Mask valid = whole ? is_finite(p) : is_finite(p) & simd::first(count);
-  return {{keep(valid, p.x), keep(valid, p.y), keep(valid, p.z)}, valid};
-}
-
 /// Points in these steps. Those that float does not hold as finely are none, and those in the camera's own plane: many
 /// drivers write (0, 0, 0) for "no measurement".
-[[nodiscard, gnu::always_inline]] inline PixelLanes in_steps(const PixelPoints& p, simd::F32 scale) noexcept {
-  const simd::F32 x = p.at.x * scale;
-  const simd::F32 y = p.at.y * scale;
-  const simd::F32 z = p.at.z * scale;
+[[nodiscard, gnu::always_inline]] inline PixelLanes in_steps(const ValidLanes& p, simd::F32 scale) noexcept {
+  const simd::F32 x = p.points.x * scale;
+  const simd::F32 y = p.points.y * scale;
+  const simd::F32 z = p.points.z * scale;
   const simd::F32 most = simd::all(4194303.0f);  // what to_whole() can take
-  const simd::Mask usable =
-      p.valid & (p.at.z != simd::all(0.0f)) & (simd::max(simd::max(simd::abs(x), simd::abs(y)), simd::abs(z)) < most);
+  const simd::Mask usable = p.valid & (p.points.z != simd::all(0.0f)) &
+                            (simd::max(simd::max(simd::abs(x), simd::abs(y)), simd::abs(z)) < most);
   return {usable, to_whole(keep(usable, x)), to_whole(keep(usable, y)), to_whole(keep(usable, z))};
 }
 
@@ -170,7 +153,7 @@ class ImageSums {
 
   [[nodiscard]] PixelLanes read_register(std::size_t column) const noexcept {
     const std::size_t left = std::min(simd::lanes, cloud_.width - column);
-    return in_steps(read_pixels(cloud_, next_ * cloud_.width + column, left), simd::all(scale_));
+    return in_steps(read_valid(cloud_.points, next_ * cloud_.width + column, left), simd::all(scale_));
   }
 
   /// The depth that a hole at the row's beginning has: the first one that there is.

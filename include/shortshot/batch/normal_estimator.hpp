@@ -16,6 +16,7 @@
 #include "../frame/normals_together.hpp"
 #include "../frame/viewpoint.hpp"
 #include "../search/neighborhood.hpp"
+#include "../search/pinhole.hpp"
 #include "../search/radius.hpp"
 #include "../status.hpp"
 #include "growing_workspace.hpp"
@@ -47,8 +48,7 @@ class NormalEstimator {
         needed_(needed),
         memory_(memory),
         normals_(normals) {
-    const bool image = cloud.height > 1 && cloud.size % cloud.height == 0 && cloud.size / cloud.height == cloud.width;
-    row_ = image ? cloud.width : 0;
+    row_ = is_image(cloud) ? cloud.width : 0;
   }
 
   /// Of the k-th to the one before the end-th point; `normals` has NaN for all of them before.

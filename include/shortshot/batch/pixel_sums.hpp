@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "../base/quad.hpp"
+#include "../base/same_bits.hpp"
 #include "../base/simd.hpp"
 #include "../base/unroll.hpp"
 #include "../config.hpp"
@@ -21,14 +22,6 @@ inline namespace SHORTSHOT_CODE {
 using WrappingLanes = std::uint32_t __attribute__((vector_size(4 * simd::lanes)));
 inline constexpr int lane_count = static_cast<int>(simd::lanes);
 using WrappingQuad = std::uint32_t __attribute__((vector_size(16)));
-
-template <class To, class From>
-[[nodiscard, gnu::always_inline]] inline To same_bits(const From& from) noexcept {
-  static_assert(sizeof(To) == sizeof(From), "of one size");
-  To to;
-  std::memcpy(&to, &from, sizeof to);
-  return to;
-}
 
 /// What pixels add up to.
 struct PixelSums {

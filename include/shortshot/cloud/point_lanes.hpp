@@ -47,21 +47,32 @@ template <class Function>
   return is_negative(below(p.x) & below(p.y) & below(p.z));
 }
 
+/// Some points, and which of them have three finite coordinates; the others are zeros.
+struct ValidLanes {
+  PointLanes points;
+  simd::Mask valid;
+};
+
+/// `count` points from index `first` on, at most a register, at least one. Beyond them nothing is read or valid.
+[[nodiscard, gnu::always_inline]] inline ValidLanes read_valid(const Float3Channel& channel, std::size_t first,
+                                                               std::size_t count) noexcept {
+  const bool whole = count >= simd::lanes;
+  PointLanes p = whole
+                     ? read_lanes(channel, [=](std::size_t lane) { return first + lane; })
+                     : read_lanes(channel, [=](std::size_t lane) { return first + (lane < count ? lane : count - 1); });
+  const simd::Mask valid = whole ? is_finite(p) : is_finite(p) & simd::first(count);
+  if (!every(valid)) p = {keep(valid, p.x), keep(valid, p.y), keep(valid, p.z)};
+  return {p, valid};
+}
+
 /// Calls f(index, points, valid) for registers of points in order: the first one's index, and which lanes have three
 /// finite coordinates. At least one has; registers without are passed over. The other lanes are zeros. The view comes
 /// by value: no store that f makes can change it.
 template <class Function>
 [[gnu::always_inline]] inline void for_each_valid_register(const CloudView cloud, Function f) {
-  const std::size_t last = cloud.size - 1;
   for (std::size_t i = 0; i < cloud.size; i += simd::lanes) {
-    const bool whole = cloud.size - i >= simd::lanes;
-    PointLanes points =
-        whole ? read_lanes(cloud.points, [i](std::size_t lane) { return i + lane; })
-              : read_lanes(cloud.points, [=](std::size_t lane) { return i + lane < last ? i + lane : last; });
-    const simd::Mask valid = whole ? is_finite(points) : is_finite(points) & simd::first(cloud.size - i);
-    if (!any(valid)) continue;
-    if (!every(valid)) points = {keep(valid, points.x), keep(valid, points.y), keep(valid, points.z)};
-    f(i, points, valid);
+    const ValidLanes read = read_valid(cloud.points, i, cloud.size - i);
+    if (any(read.valid)) f(i, read.points, read.valid);
   }
 }
 

@@ -59,18 +59,12 @@ inline std::size_t place_in_voxels(const CloudView& cloud, float leaf, std::size
   const std::size_t size = left < voxel_block ? left : voxel_block;
   const Float3Channel channel = cloud.points;
   for (std::size_t i = 0; i < size; i += simd::lanes) {
-    const bool whole = size - i >= simd::lanes;
-    const std::size_t first = begin + i;
-    PointLanes points =
-        whole ? read_lanes(channel, [first](std::size_t lane) { return first + lane; })
-              : read_lanes(channel, [=](std::size_t lane) { return i + lane < size ? first + lane : first; });
-    const simd::Mask valid = is_finite(points);
+    const ValidLanes read = read_valid(channel, begin + i, size - i);
     simd::store(d2 + i, simd::all(-1.0f));
-    if (!any(valid)) continue;
-    if (!every(valid)) points = {keep(valid, points.x), keep(valid, points.y), keep(valid, points.z)};
-    const VoxelLanes voxels = voxels_of(points, leaf);
+    if (!any(read.valid)) continue;
+    const VoxelLanes voxels = voxels_of(read.points, leaf);
     unroll<3>([&](auto axis) { simd::store(number[axis] + i, voxels.number[axis]); });
-    simd::store(d2 + i, select(valid, voxels.d2, simd::all(-1.0f)));
+    simd::store(d2 + i, select(read.valid, voxels.d2, simd::all(-1.0f)));
   }
   return size;
 }

@@ -1,9 +1,10 @@
 // shortshot/dispatch/twins.hpp: what is called what in the kernel for AVX2. Hosted only.
 #pragma once
 
-#include <cstring>
+#include <cstdint>
 #include <type_traits>
 
+#include "../base/same_bits.hpp"
 #include "../config.hpp"
 #include "kernel_for_avx2.hpp"
 
@@ -37,7 +38,11 @@ using IfTwins = std::enable_if_t<std::conjunction<HasTwin<T>...>::value>;
   };
 SHORTSHOT_TWIN(CloudIntensities)
 SHORTSHOT_TWIN(CloudNormals)
+SHORTSHOT_TWIN(CloudView)
 SHORTSHOT_TWIN(CshotLab)
+SHORTSHOT_TWIN(Frame)
+SHORTSHOT_TWIN(FrameConfidence)
+SHORTSHOT_TWIN(GridMemory<std::uint32_t>)
 SHORTSHOT_TWIN(HardVoting)
 SHORTSHOT_TWIN(HeightCells)
 SHORTSHOT_TWIN(KeyPointColor)
@@ -45,12 +50,20 @@ SHORTSHOT_TWIN(LabColors)
 SHORTSHOT_TWIN(LinearRadius)
 SHORTSHOT_TWIN(MeanColor)
 SHORTSHOT_TWIN(MultilinearVoting)
+SHORTSHOT_TWIN(Neighborhood)
 SHORTSHOT_TWIN(Occupancy)
 SHORTSHOT_TWIN(PclLab)
 SHORTSHOT_TWIN(PlainSums)
+SHORTSHOT_TWIN(Point)
 SHORTSHOT_TWIN(PublishedCells)
 SHORTSHOT_TWIN(PublishedLab)
+SHORTSHOT_TWIN(Radius)
 SHORTSHOT_TWIN(ShotCells)
+SHORTSHOT_TWIN(Support)
+SHORTSHOT_TWIN(Viewpoint)
+SHORTSHOT_TWIN(detail::Grid<std::uint32_t>)
+SHORTSHOT_TWIN(detail::GridContents<std::uint32_t>)
+SHORTSHOT_TWIN(detail::PlaceGroup)
 SHORTSHOT_TWIN_OF_NUMBERS(AdditiveVoting)
 SHORTSHOT_TWIN_OF_NUMBERS(SeparateVoting)
 SHORTSHOT_TWIN_OF_NUMBERS(Intensity)
@@ -93,18 +106,14 @@ struct Twin<extend::SourceSet<Sources...>, IfTwins<Sources...>> {
   using type = ::shortshot_avx2::extend::SourceSet<TwinOf<Sources>...>;
 };
 
-/// A value as its twin: the same text made both types, so that they have the same bytes.
-template <class To, class From>
-[[nodiscard]] inline To as_twin(const From& from) noexcept {
-  static_assert(sizeof(To) == sizeof(From) && alignof(To) == alignof(From) && std::is_trivially_copyable<To>::value &&
-                    std::is_trivially_copyable<From>::value,
-                "twins are plain data of one size");
-  union Uninitialized {
-    Uninitialized() noexcept {}
-    To value;
-  } to;
-  std::memcpy(static_cast<void*>(&to.value), &from, sizeof from);
-  return to.value;
+/// A value as its twin, and back: the same text made both types, so that they have the same bytes.
+template <class T>
+[[nodiscard]] inline TwinOf<T> twin_of(const T& value) noexcept {
+  return same_bits<TwinOf<T>>(value);
+}
+template <class T>
+inline void take_back(T& value, const TwinOf<T>& twin) noexcept {
+  value = same_bits<T>(twin);
 }
 
 }  // namespace SHORTSHOT_CODE

@@ -65,14 +65,12 @@ template <class D, class Sources>
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
   if constexpr (HasTwin<D>::value && HasTwin<Sources>::value) {
     if (has_wider_lanes()) {
-      auto twin_frame = as_twin<::shortshot_avx2::Frame>(frame);
-      auto twin_confidence = as_twin<::shortshot_avx2::FrameConfidence>(confidence);
+      auto its_frame = twin_of(frame);
+      auto its_confidence = twin_of(confidence);
       const auto status = ::shortshot_avx2::detail::describe_gathered<TwinOf<D>, default_chunk_size>(
-          as_twin<::shortshot_avx2::Neighborhood>(n), as_twin<TwinOf<Sources>>(sources),
-          as_twin<::shortshot_avx2::Point>(center), as_twin<::shortshot_avx2::Support>(support), twin_frame, out,
-          twin_confidence);
-      frame = as_twin<Frame>(twin_frame);
-      confidence = as_twin<FrameConfidence>(twin_confidence);
+          twin_of(n), twin_of(sources), twin_of(center), twin_of(support), its_frame, out, its_confidence);
+      take_back(frame, its_frame);
+      take_back(confidence, its_confidence);
       return static_cast<Status>(status);
     }
   }
@@ -87,9 +85,8 @@ template <class D, class Sources>
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
   if constexpr (HasTwin<D>::value && HasTwin<Sources>::value) {
     if (has_wider_lanes()) {
-      return static_cast<Status>(::shortshot_avx2::describe<TwinOf<D>>(
-          as_twin<::shortshot_avx2::Neighborhood>(n), as_twin<TwinOf<Sources>>(sources),
-          as_twin<::shortshot_avx2::Frame>(frame), as_twin<::shortshot_avx2::Radius>(radius), out));
+      return static_cast<Status>(
+          ::shortshot_avx2::describe<TwinOf<D>>(twin_of(n), twin_of(sources), twin_of(frame), twin_of(radius), out));
     }
   }
 #endif
@@ -101,8 +98,7 @@ inline std::size_t place_widest(const CloudView& cloud, float leaf, std::size_t 
                                 float (&d2)[voxel_block]) noexcept {
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
   if (has_wider_lanes()) {
-    return ::shortshot_avx2::detail::place_in_voxels(as_twin<::shortshot_avx2::CloudView>(cloud), leaf, begin, number,
-                                                     d2);
+    return ::shortshot_avx2::detail::place_in_voxels(twin_of(cloud), leaf, begin, number, d2);
   }
 #endif
   return place_in_voxels(cloud, leaf, begin, number, d2);
@@ -113,10 +109,8 @@ inline void normals_widest(const CloudView& cloud, const Neighborhood& candidate
                            const Viewpoint& viewpoint, const PlaceGroup& group, float* normals) noexcept {
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
   if (has_wider_lanes()) {
-    ::shortshot_avx2::detail::normals_together(
-        as_twin<::shortshot_avx2::CloudView>(cloud), as_twin<::shortshot_avx2::Neighborhood>(candidates),
-        as_twin<::shortshot_avx2::Radius>(wide), as_twin<::shortshot_avx2::Radius>(radius),
-        as_twin<::shortshot_avx2::Viewpoint>(viewpoint), as_twin<::shortshot_avx2::detail::PlaceGroup>(group), normals);
+    ::shortshot_avx2::detail::normals_together(twin_of(cloud), twin_of(candidates), twin_of(wide), twin_of(radius),
+                                               twin_of(viewpoint), twin_of(group), normals);
     return;
   }
 #endif
@@ -143,14 +137,12 @@ template <class Neighbors>
 [[nodiscard]] inline Status gather_widest(const HostGrid& grid, const GridContents<std::uint32_t>& contents,
                                           const Point& center, Radius radius, Neighbors& out) noexcept {
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
-  if constexpr (std::is_same<Neighbors, Neighborhood>::value) {
+  if constexpr (HasTwin<Neighbors>::value) {
     if (has_wider_lanes()) {
-      auto twin = as_twin<::shortshot_avx2::Neighborhood>(out);
-      const auto status = ::shortshot_avx2::detail::gather_from(
-          as_twin<::shortshot_avx2::detail::Grid<std::uint32_t>>(grid),
-          as_twin<::shortshot_avx2::detail::GridContents<std::uint32_t>>(contents),
-          as_twin<::shortshot_avx2::Point>(center), as_twin<::shortshot_avx2::Radius>(radius), twin);
-      out = as_twin<Neighborhood>(twin);
+      auto its_neighbors = twin_of(out);
+      const auto status = ::shortshot_avx2::detail::gather_from(twin_of(grid), twin_of(contents), twin_of(center),
+                                                                twin_of(radius), its_neighbors);
+      take_back(out, its_neighbors);
       return static_cast<Status>(status);
     }
   }
@@ -163,10 +155,9 @@ template <class Neighbors>
                                         const GridMemory<std::uint32_t>& memory) noexcept {
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
   if (has_wider_lanes()) {
-    auto twin = as_twin<::shortshot_avx2::detail::Grid<std::uint32_t>>(grid);
-    const auto status = twin.plan(as_twin<::shortshot_avx2::CloudView>(cloud), cell_size,
-                                  as_twin<::shortshot_avx2::GridMemory<std::uint32_t>>(memory));
-    grid = as_twin<HostGrid>(twin);
+    auto its_grid = twin_of(grid);
+    const auto status = its_grid.plan(twin_of(cloud), cell_size, twin_of(memory));
+    take_back(grid, its_grid);
     return static_cast<Status>(status);
   }
 #endif
@@ -178,8 +169,7 @@ inline void sort_widest(const HostGrid& grid, const CloudView& cloud,
                         const GridMemory<std::uint32_t>& memory) noexcept {
 #if defined(SHORTSHOT_HAS_KERNEL_FOR_AVX2)
   if (has_wider_lanes()) {
-    as_twin<::shortshot_avx2::detail::Grid<std::uint32_t>>(grid).sort(
-        as_twin<::shortshot_avx2::CloudView>(cloud), as_twin<::shortshot_avx2::GridMemory<std::uint32_t>>(memory));
+    twin_of(grid).sort(twin_of(cloud), twin_of(memory));
     return;
   }
 #endif

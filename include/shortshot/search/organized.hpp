@@ -96,23 +96,10 @@ class OrganizedSearch {
                           : 0};
   }
 
-  /// Calls f(column, row, x / z, y / z) for each valid point.
-  template <class Function>
-  void for_each_pixel(Function f) const noexcept {
-    extend::for_each_valid(cloud_, [&](std::size_t i, const Point& p) {
-      const std::size_t row = i / cloud_.width;
-      const std::size_t column = i % cloud_.width;
-      f(static_cast<float>(column), static_cast<float>(row), p.x / p.z, p.y / p.z);
-    });
-  }
-
   [[nodiscard]] Status fit() noexcept {
     const Status usable = validate(cloud_);
     if (usable != Status::ok) return usable;
-    if (cloud_.height < 2 || cloud_.width < 2 || cloud_.size / cloud_.width != cloud_.height ||
-        cloud_.size % cloud_.width != 0) {
-      return Status::not_organized;
-    }
+    if (!detail::is_image(cloud_) || cloud_.width < 2) return Status::not_organized;
     bool front = false;
     bool behind = false;
     bool nowhere = false;  // in the camera's own plane: in no pixel
@@ -123,28 +110,7 @@ class OrganizedSearch {
     });
     if (!front && !behind && !nowhere) return Status::empty_cloud;
     if ((front && behind) || nowhere) return Status::not_organized;
-
-    detail::PinholeLine columns{};
-    detail::PinholeLine rows{};
-    for_each_pixel([&](float u, float v, float x, float y) {
-      columns.add_to_mean(x, u);
-      rows.add_to_mean(y, v);
-    });
-    if (!columns.is_finite() || !rows.is_finite()) return Status::not_organized;
-    for_each_pixel([&](float u, float v, float x, float y) {
-      columns.add_to_slope(x, u);
-      rows.add_to_slope(y, v);
-    });
-    if (!columns.is_finite() || !rows.is_finite()) return Status::not_organized;
-    columns_ = columns.projection();
-    rows_ = rows.projection();
-    for_each_pixel([&](float u, float v, float x, float y) {
-      columns_.widen(x, u);
-      rows_.widen(y, v);
-    });
-    const bool pinhole = columns_.error <= 0.25f * static_cast<float>(cloud_.width) &&
-                         rows_.error <= 0.25f * static_cast<float>(cloud_.height);
-    return pinhole ? Status::ok : Status::not_organized;
+    return detail::fit_pinhole(cloud_, 1, columns_, rows_);
   }
 
   CloudView cloud_;

@@ -1,9 +1,14 @@
 // shortshot/search/pinhole.hpp: the camera that an organized cloud was taken with, fitted to its points.
 #pragma once
 
+#include <cstddef>
+
 #include "../base/math.hpp"
 #include "../base/unfused.hpp"
+#include "../cloud/cloud.hpp"
+#include "../cloud/read.hpp"
 #include "../config.hpp"
+#include "../status.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -43,6 +48,51 @@ struct PinholeLine {
     return {focal, mean_pixel - extend::unfused(focal * mean_slope), 0.0f};
   }
 };
+
+/// Is it an image, of at least one column? (Whatever the view says, nothing overflows.)
+[[nodiscard]] inline bool is_image(const CloudView& cloud) noexcept {
+  return cloud.height > 1 && cloud.width > 0 && cloud.size / cloud.width == cloud.height &&
+         cloud.size % cloud.width == 0;
+}
+
+/// Calls add(column, row, x / z, y / z) for every `step`-th pixel whose point is valid and not in the camera's own
+/// plane.
+template <class Add>
+inline void for_pixels(const CloudView& cloud, std::size_t step, Add add) noexcept {
+  for (std::size_t i = 0; i < cloud.size; i += step) {
+    const Point p = point(cloud, i);
+    if (!is_finite(p) || p.z == 0.0f) continue;
+    const std::size_t row = i / cloud.width;
+    add(static_cast<float>(i - row * cloud.width), static_cast<float>(row), p.x / p.z, p.y / p.z);
+  }
+}
+
+/// The camera of an image by every `step`-th point. not_organized: they deviate from every pinhole by more than a
+/// quarter of the image.
+[[nodiscard]] inline Status fit_pinhole(const CloudView& cloud, std::size_t step, Projection& columns,
+                                        Projection& rows) noexcept {
+  PinholeLine u_line{};
+  PinholeLine v_line{};
+  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
+    u_line.add_to_mean(x, u);
+    v_line.add_to_mean(y, v);
+  });
+  if (!u_line.is_finite() || !v_line.is_finite()) return Status::not_organized;
+  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
+    u_line.add_to_slope(x, u);
+    v_line.add_to_slope(y, v);
+  });
+  if (!u_line.is_finite() || !v_line.is_finite()) return Status::not_organized;
+  columns = u_line.projection();
+  rows = v_line.projection();
+  for_pixels(cloud, step, [&](float u, float v, float x, float y) {
+    columns.widen(x, u);
+    rows.widen(y, v);
+  });
+  const bool is_pinhole = columns.error <= 0.25f * static_cast<float>(cloud.width) &&
+                          rows.error <= 0.25f * static_cast<float>(cloud.height);
+  return is_pinhole ? Status::ok : Status::not_organized;
+}
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail

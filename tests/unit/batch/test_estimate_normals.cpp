@@ -22,10 +22,6 @@ using ss::Status;
 
 using Normals = std::vector<ss::SurfaceNormal>;
 
-bool same_bits(const Normals& a, const Normals& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(ss::SurfaceNormal)) == 0;
-}
-
 template <class Search>
 Normals estimated(const ss::CloudView& view, const Search& search, float radius, ss::Point viewpoint = {}) {
   Normals normals;

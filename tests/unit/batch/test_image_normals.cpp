@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <vector>
 
 #include "depth_images.hpp"
@@ -22,10 +21,6 @@ using namespace unit;
 using ss::Status;
 
 using Normals = std::vector<ss::SurfaceNormal>;
-
-bool same_bits(const Normals& a, const Normals& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(ss::SurfaceNormal)) == 0;
-}
 
 Normals estimated(const ss::CloudView& view, float radius,
                   const ss::Viewpoint& viewpoint = ss::Viewpoint::towards({})) {

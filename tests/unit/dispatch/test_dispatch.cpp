@@ -23,6 +23,15 @@ struct Choice {
   ~Choice() { static_cast<void>(ss::extend::allow_wider_lanes(true)); }
 };
 
+/// do_with(0) without wider lanes, do_with(1) with those that there are.
+template <class Do>
+void both_ways(Do do_with) {
+  for (const std::size_t way : {0u, 1u}) {
+    static_cast<void>(ss::extend::allow_wider_lanes(way == 1));
+    do_with(way);
+  }
+}
+
 TestCloud surface() {
   TestCloud cloud = curved_surface(3, 3000);
   cloud.add(5.0f, 5.0f, 5.0f);
@@ -55,9 +64,8 @@ void check_same_bits(const ss::CloudView& cloud, const std::vector<std::uint32_t
   CHECK(same_bits(narrow.values, wide.values));
   CHECK(narrow.status == wide.status);
   CHECK(narrow.neighbors == wide.neighbors);
-  CHECK(std::memcmp(narrow.frames.data(), wide.frames.data(), narrow.frames.size() * sizeof(ss::Frame)) == 0);
-  CHECK(std::memcmp(narrow.frame_confidence.data(), wide.frame_confidence.data(),
-                    narrow.frame_confidence.size() * sizeof(ss::FrameConfidence)) == 0);
+  CHECK(same_bits(narrow.frames, wide.frames));
+  CHECK(same_bits(narrow.frame_confidence, wide.frame_confidence));
 }
 
 /// A signal that the library does not have.
@@ -105,11 +113,10 @@ TEST_CASE("dispatch: the same key points") {
   const TestCloud cloud = surface();
   std::vector<std::uint32_t> keypoints[2];
   std::vector<ss::KeyPoint> centroids[2];
-  for (const bool wide : {false, true}) {
-    static_cast<void>(ss::extend::allow_wider_lanes(wide));
-    REQUIRE(ss::sample_uniform(cloud.view(), 0.02f, keypoints[wide ? 1 : 0]) == Status::ok);
-    REQUIRE(ss::sample_centroids(cloud.view(), 0.02f, centroids[wide ? 1 : 0]) == Status::ok);
-  }
+  both_ways([&](std::size_t way) {
+    REQUIRE(ss::sample_uniform(cloud.view(), 0.02f, keypoints[way]) == Status::ok);
+    REQUIRE(ss::sample_centroids(cloud.view(), 0.02f, centroids[way]) == Status::ok);
+  });
   CHECK(keypoints[0] == keypoints[1]);
   REQUIRE(centroids[0].size() == centroids[1].size());
   for (std::size_t k = 0; k < centroids[0].size(); ++k) {
@@ -121,15 +128,14 @@ TEST_CASE("dispatch: the same normals") {
   const Choice choice;
   const TestCloud cloud = surface();
   std::vector<ss::SurfaceNormal> normals[2];
-  for (const bool wide : {false, true}) {
-    static_cast<void>(ss::extend::allow_wider_lanes(wide));
+  both_ways([&](std::size_t way) {
     const ss::GridSearch grid(cloud.view(), radius);
     REQUIRE(ss::estimate_normals(cloud.view(), grid, radius, ss::Viewpoint::towards({0.1f, 0.2f, 3.0f}),
-                                 normals[wide ? 1 : 0]) == Status::ok);
-  }
+                                 normals[way]) == Status::ok);
+  });
   REQUIRE(normals[0].size() == cloud.size());
   CHECK(normals[0][7].x == normals[0][7].x);
-  CHECK(std::memcmp(normals[0].data(), normals[1].data(), normals[0].size() * sizeof(ss::SurfaceNormal)) == 0);
+  CHECK(same_bits(normals[0], normals[1]));
 }
 
 TEST_CASE("dispatch: the same matches") {
@@ -137,12 +143,11 @@ TEST_CASE("dispatch: the same matches") {
   const TestCloud cloud = surface();
   const ss::Features<ss::Scsh336> rows = extracted<ss::Scsh336>(cloud.view(), some_keypoints(cloud), false);
   std::vector<ss::Match> matches[2];
-  for (const bool wide : {false, true}) {
-    static_cast<void>(ss::extend::allow_wider_lanes(wide));
-    REQUIRE(ss::nearest(ss::rows_of(rows), ss::rows_of(rows), 3, matches[wide ? 1 : 0]) == Status::ok);
-  }
+  both_ways([&](std::size_t way) {
+    REQUIRE(ss::nearest(ss::rows_of(rows), ss::rows_of(rows), 3, matches[way]) == Status::ok);
+  });
   REQUIRE(matches[0].size() == 3 * rows.size());
-  CHECK(std::memcmp(matches[0].data(), matches[1].data(), matches[0].size() * sizeof(ss::Match)) == 0);
+  CHECK(same_bits(matches[0], matches[1]));
 }
 
 TEST_CASE("dispatch: a signal of the caller's own is measured as ever") {
@@ -160,10 +165,9 @@ TEST_CASE("dispatch: frames of the caller's own") {
   std::vector<ss::Frame> frames(keypoints.size(), ss::Frame{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   frames[1] = {};
   ss::Features<ss::ShapeColor32> features[2];
-  for (const bool wide : {false, true}) {
-    static_cast<void>(ss::extend::allow_wider_lanes(wide));
-    REQUIRE(ss::extract(cloud.view(), grid, keypoints, frames, radius, features[wide ? 1 : 0]) == Status::ok);
-  }
+  both_ways([&](std::size_t way) {
+    REQUIRE(ss::extract(cloud.view(), grid, keypoints, frames, radius, features[way]) == Status::ok);
+  });
   CHECK(features[1].status[1] == Status::bad_frame);
   CHECK(same_bits(features[0].values, features[1].values));
   CHECK(features[0].status == features[1].status);
