@@ -44,11 +44,9 @@ Suite make_naive_suite(const Task& task) {
   const auto state = std::make_shared<State>(task);
   Suite suite{"naive"};
   const std::size_t sample = suite.add("sample", [state] { state->sampled = state->naive.sample(); });
-  Contender sampling{"naive double", key_points_made, {}, "voxels", sample, {sample}};
-  sampling.made = task.sampled.size();
-  sampling.output_bytes = sampling.made * sizeof(std::uint32_t);
+  Contender sampling{"naive double", key_points_made, {}, "voxels"};
   sampling.against = {key_points_made};
-  suite.contenders.push_back(sampling);
+  suite.add_maker(sampling, sample, task.sampled.size(), sizeof(std::uint32_t));
   const std::size_t tree = suite.add("tree", [state] { state->naive.build_tree(); });
   const std::size_t lab = suite.add("Lab", [state] { state->naive.convert_colors(); });
   suite.add("search", [state] { state->find_all(); });

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "speed/timing/clock.hpp"
@@ -48,6 +49,15 @@ struct Suite {
   std::size_t add(std::string step, std::function<void()> run, Clock clock = Clock::thread_cpu) {
     steps.push_back({std::move(step), std::move(run), clock});
     return steps.size() - 1;
+  }
+
+  /// A contender of one step, which makes so many, each of so many bytes.
+  void add_maker(Contender contender, std::size_t step, std::size_t made, std::size_t bytes_of_each) {
+    contender.describe = step;
+    contender.frame = {step};
+    contender.made = made;
+    contender.output_bytes = made * bytes_of_each;
+    contenders.push_back(std::move(contender));
   }
 };
 

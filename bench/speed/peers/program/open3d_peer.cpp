@@ -86,11 +86,9 @@ Suite make_open3d_suite(const Task& task) {
   Suite suite{"Open3D"};
   suite.release = [state] { state->release(); };
   const std::size_t sample = add_frame(suite, state, "", leaf, "nanoflann");
-  Contender sampling{"Open3D voxel_down_sample", key_points_made, {}, "voxels", sample, {sample}};
-  sampling.made = suite.contenders.front().made;
-  sampling.output_bytes = sampling.made * 6 * sizeof(double);
+  Contender sampling{"Open3D voxel_down_sample", key_points_made, {}, "voxels"};
   sampling.against = {key_points_made};
-  suite.contenders.push_back(sampling);
+  suite.add_maker(sampling, sample, suite.contenders.front().made, 6 * sizeof(double));
   add_frame(suite, state, ", as many points", state->leaf_for(task.keypoints.size(), leaf), "nanoflann");
   return suite;
 }

@@ -155,14 +155,6 @@ void add_contender(Suite& suite, const std::shared_ptr<State>& state, Index Stat
   };
 }
 
-/// What one step makes.
-void add_maker(Suite& suite, const char* makes, const char* search, std::size_t step, std::size_t made,
-               std::size_t bytes_of_each) {
-  Contender contender{"shortshot", makes, suite.name, search, step, {step}, made * bytes_of_each};
-  contender.made = made;
-  suite.contenders.push_back(contender);
-}
-
 /// Steps of a frame before its descriptors.
 struct Steps {
   std::size_t sample, grid, tree;
@@ -180,7 +172,8 @@ template <class Estimate>
 void add_with_normals(Suite& suite, const std::shared_ptr<State>& state, const Steps& steps, const char* makes,
                       const std::string& suffix, Estimate estimate) {
   const std::size_t of_image = suite.add(makes, [=] { estimate(*state, view_of_cloud(state->task.image)); });
-  add_maker(suite, makes, Grid::name, of_image, state->task.image.size(), sizeof(ss::SurfaceNormal));
+  suite.add_maker({"shortshot", makes, suite.name, Grid::name}, of_image, state->task.image.size(),
+                  sizeof(ss::SurfaceNormal));
   const std::size_t normals = suite.add("normals" + suffix, [=] {
     estimate(*state, state->view);
     state->view = ss::with_normals(state->view, state->normals.data());
@@ -207,7 +200,8 @@ Suite PEERS_SUITE(const Task& task) {
   };
   Steps steps{};
   steps.sample = suite.add("sample", [=] { sample_keypoints(*state); });
-  add_maker(suite, key_points_made, "voxels", steps.sample, task.sampled.size(), sizeof(std::uint32_t));
+  suite.add_maker({"shortshot", key_points_made, suite.name, "voxels"}, steps.sample, task.sampled.size(),
+                  sizeof(std::uint32_t));
   steps.grid = suite.add("grid", [=] { state->grid.build(state->view, state->task.radius); });
   steps.tree = suite.add("tree", [=] { state->tree.build(state->view, state->task.radius); });
   suite.add("search, grid", [=] { find_all(*state, *state->grid); });

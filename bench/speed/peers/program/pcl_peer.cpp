@@ -163,14 +163,6 @@ struct Steps {
   std::optional<std::size_t> fast_normals;  // of an image
 };
 
-/// What one step makes.
-void add_maker(Suite& suite, const std::string& name, const char* search, std::size_t step, std::size_t made,
-               std::size_t bytes_of_each, const std::vector<std::string>& against) {
-  Contender contender{name, against.front(), {}, search, step, {step}, made * bytes_of_each, against};
-  contender.made = made;
-  suite.contenders.push_back(contender);
-}
-
 /// Adds a contender whose frame is `before` and then the descriptor.
 template <class Signature>
 void add_contender(Suite& suite, const State& state, const std::string& name, const std::string& descriptor,
@@ -220,20 +212,24 @@ Steps add_steps(Suite& suite, const std::shared_ptr<State>& state) {
 /// Key points and normals by themselves. Integral images need an image.
 void add_makers(Suite& suite, const std::shared_ptr<State>& state, Steps& steps, std::size_t sampled) {
   const std::size_t pixels = state->image->size();
-  add_maker(suite, "PCL VoxelGrid", "voxels", steps.sample, sampled, sizeof(Point), {key_points_made});
-  add_maker(suite, "PCL NormalEstimation", "FLANN",
-            suite.add(normals_made, [=] { state->estimate_normals_of_image(); }), pixels, sizeof(pcl::Normal),
-            {normals_made});
+  Contender voxels{"PCL VoxelGrid", key_points_made, {}, "voxels"};
+  voxels.against = {key_points_made};
+  suite.add_maker(voxels, steps.sample, sampled, sizeof(Point));
+  Contender exact{"PCL NormalEstimation", normals_made, {}, "FLANN"};
+  exact.against = {normals_made};
+  suite.add_maker(exact, suite.add(normals_made, [=] { state->estimate_normals_of_image(); }), pixels,
+                  sizeof(pcl::Normal));
   if (state->height < 2) {
     std::printf("PCL's IntegralImageNormalEstimation is left out: the cloud is no image\n");
     return;
   }
-  const auto fast = [=] {
+  const std::size_t of_image = suite.add(fast_normals_made, [=] {
     Normals estimated;
     state->estimate_fast_normals_of_image(estimated);
-  };
-  add_maker(suite, "PCL IntegralImageNormalEstimation", "image", suite.add(fast_normals_made, fast), pixels,
-            sizeof(pcl::Normal), {normals_made, fast_normals_made});
+  });
+  Contender fast{"PCL IntegralImageNormalEstimation", normals_made, {}, "image"};
+  fast.against = {normals_made, fast_normals_made};
+  suite.add_maker(fast, of_image, pixels, sizeof(pcl::Normal));
   steps.fast_normals = suite.add(std::string("normals") + with_fast_normals, [=] { state->estimate_fast_normals(); });
 }
 
