@@ -60,6 +60,16 @@
 #define SHORTSHOT_JOIN_CODE(types, a, b, c, d, e, f, g, h, i, j) \
   SHORTSHOT_JOIN_CODE_(types, a, b, c, d, e, f, g, h, i, j)
 
+// A sanitizer checks each copy of a function that was inlined: such code takes twice as long to compile.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define SHORTSHOT_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(memory_sanitizer) || __has_feature(thread_sanitizer) || \
+    __has_feature(undefined_behavior_sanitizer)
+#define SHORTSHOT_SANITIZED 1
+#endif
+#endif
+
 // Every flag that lets the compiler use other instructions, or makes it compute or inline otherwise, is a bit of the
 // name: `v0_1_c000000000` is version 0.1 for plain x86-64.
 #define SHORTSHOT_CODE                                                                                                 \
@@ -72,11 +82,11 @@
       SHORTSHOT_DIGIT(__ARM_NEON, __ARM_FEATURE_FMA, __ARM_FEATURE_DSP, __ARM_FEATURE_DOTPROD),                        \
       SHORTSHOT_DIGIT(__ARM_FEATURE_SVE, __ARM_FEATURE_MVE, __FAST_MATH__, __OPTIMIZE_SIZE__),                         \
       SHORTSHOT_DIGIT(__RECIPROCAL_MATH__, __ASSOCIATIVE_MATH__, __NO_SIGNED_ZEROS__, __FINITE_MATH_ONLY__),           \
-      SHORTSHOT_DIGIT(SHORTSHOT_NO_DISPATCH, 0, 0, 0))
+      SHORTSHOT_DIGIT(SHORTSHOT_NO_DISPATCH, SHORTSHOT_SANITIZED, 0, 0))
 
 // Set by us, too: functions, and lambdas, that are inlined for speed, but left to the compiler where it was asked for
-// small code (-Os).
-#if defined(__OPTIMIZE_SIZE__)
+// small code (-Os), and by sanitizers.
+#if defined(__OPTIMIZE_SIZE__) || defined(SHORTSHOT_SANITIZED)
 #define SHORTSHOT_INLINE inline
 #define SHORTSHOT_INLINE_LAMBDA
 #else
