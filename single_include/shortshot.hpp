@@ -8238,6 +8238,1718 @@ template <class Neighbors, class Colors>
 }  // namespace shortshot
 #endif  // SHORTSHOT_FRAME_FIXED_LAMP_FRAME_HPP
 
+// shortshot/recognition/micro_recognizer.hpp: recognition without a heap: a view's key points one after the other,
+// against a model in flash.
+#ifndef SHORTSHOT_RECOGNITION_MICRO_RECOGNIZER_HPP
+#define SHORTSHOT_RECOGNITION_MICRO_RECOGNIZER_HPP
+
+// shortshot/frame/local_point.hpp: a point as a frame sees it.
+#ifndef SHORTSHOT_FRAME_LOCAL_POINT_HPP
+#define SHORTSHOT_FRAME_LOCAL_POINT_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// A point in a frame's coordinates, and back.
+[[nodiscard]] inline Point to_local(const Point& p, const Point& origin, const Frame& frame) noexcept {
+  const float offset[3] = {p.x - origin.x, p.y - origin.y, p.z - origin.z};
+  return {dot(frame.x, offset), dot(frame.y, offset), dot(frame.z, offset)};
+}
+[[nodiscard]] inline Point from_local(const Point& p, const Point& origin, const Frame& frame) noexcept {
+  const auto component = [&](int k) {
+    return (unfused(p.x * frame.x[k]) + unfused(p.y * frame.y[k])) + unfused(p.z * frame.z[k]);
+  };
+  return {origin.x + component(0), origin.y + component(1), origin.z + component(2)};
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_FRAME_LOCAL_POINT_HPP
+
+// shortshot/store/storage.hpp: what the storages of a descriptor have in common: how they are made, and what they are
+// called.
+#ifndef SHORTSHOT_STORE_STORAGE_HPP
+#define SHORTSHOT_STORE_STORAGE_HPP
+
+// shortshot/descriptor/layout_text.hpp: what the values of a descriptor mean, in English: for files, and for code that
+// knows descriptors only at run time. What becomes of the text is up to whom it is told to: a string (layout_of.hpp),
+// or a number (LayoutNumber), which needs no memory.
+#ifndef SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
+#define SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+template <class Policy, class = void>
+struct HasName : std::false_type {};
+template <class Policy>
+struct HasName<Policy, std::enable_if_t<std::is_convertible<decltype(Policy::name), const char*>::value>>
+    : std::true_type {};
+
+/// A text's pieces, one after the other, to whoever has add(const char*).
+template <class Text>
+constexpr void add(Text& text, const char* piece) {
+  text.add(piece);
+}
+template <class Text>
+constexpr void add(Text& text, int number) {
+  char digits[12] = {};
+  char* first = digits + 11;
+  for (; number >= 10; number /= 10) *--first = static_cast<char>('0' + number % 10);
+  *--first = static_cast<char>('0' + number);
+  text.add(first);
+}
+template <class Text, class... Pieces>
+constexpr void add_all(Text& text, Pieces... pieces) {
+  (add(text, pieces), ...);
+}
+
+template <class Policy>
+[[nodiscard]] constexpr const char* name_of() noexcept {
+  static_assert(HasName<Policy>::value,
+                "layout_of<D>() supports policies with `static constexpr const char* name`, which must tell them from "
+                "all others");
+  return Policy::name;
+}
+
+/// What a radius scale's name leaves open.
+template <class Scale>
+struct ScaleParameters {
+  template <class Text>
+  static constexpr void add_to(Text&) {}
+};
+template <int Numerator, int Denominator>
+struct ScaleParameters<LogRadius<Numerator, Denominator>> {
+  template <class Text>
+  static constexpr void add_to(Text& text) {
+    constexpr int common = std::gcd(Numerator, Denominator);
+    add_all(text, " from ", Numerator / common, "/", Denominator / common);
+  }
+};
+
+/// What a part's finish says of itself; nothing where sums are its values.
+template <class Finish>
+struct FinishText {
+  template <class Text>
+  static constexpr void add_to(Text& text) {
+    add_all(text, ", ", name_of<Finish>());
+  }
+};
+template <>
+struct FinishText<PlainSums> {
+  template <class Text>
+  static constexpr void add_to(Text&) {}
+};
+template <int PerMille>
+struct FinishText<RootOfShares<PerMille>> {
+  template <class Text>
+  static constexpr void add_to(Text& text) {
+    add_all(text, ", ", name_of<RootOfShares<PerMille>>(), ", length ", PerMille, "/1000");
+  }
+};
+template <int PerMille, int FloorPercent, int NoisePerMille>
+struct FinishText<SignedRoots<PerMille, FloorPercent, NoisePerMille>> {
+  template <class Text>
+  static constexpr void add_to(Text& text) {
+    add_all(text, ", ", name_of<SignedRoots<PerMille, FloorPercent, NoisePerMille>>(), ", length ", PerMille,
+            "/1000, floor ", FloorPercent, "/100, noise ", NoisePerMille, "/1000");
+  }
+};
+
+template <class Signal, class Text>
+constexpr void add_color(Text& text) {
+  if constexpr (!std::is_void<typename Signal::Rule>::value) {
+    add_all(text, " (", name_of<typename Signal::Rule>());
+    if constexpr (std::is_same<typename Signal::Reference, MeanColor>::value)
+      add_all(text, " from ", name_of<MeanColor>());
+    add(text, ")");
+  }
+}
+
+template <class Text, class First, class... Others>
+constexpr void add_means(Text& text, SignalList<First, Others...>) {
+  add_all(text, "means of ", name_of<First>());
+  (add_all(text, " & ", name_of<Others>()), ...);
+  add_color<First>(text);
+}
+
+template <class Part, class Text>
+constexpr void add_part(Text& text) {
+  using Grid = typename Part::Grid;
+  if constexpr (Part::weight_cells > 0) {
+    add_means(text, typename Part::Averaged{});
+    add_all(text, " shrunk by ", Part::shrink_percent, "/100");
+  } else {
+    using Signal = typename Part::Signal;
+    add(text, name_of<Signal>());
+    if constexpr (Signal::has_histogram) add_all(text, " ", Signal::bins, " bins");
+    add_color<Signal>(text);
+  }
+  add_all(text, " ", Grid::radial, "x", Grid::elevation, "x", Grid::azimuth, " ", name_of<typename Part::Scale>());
+  ScaleParameters<typename Part::Scale>::add_to(text);
+  FinishText<typename Part::Finish>::add_to(text);
+}
+
+/// What D's values mean: see layout_of().
+template <class Text, class Voting, class... Parts>
+constexpr void add_layout(Text& text, const Descriptor<Voting, Parts...>*) {
+  add_all(text, name_of<Voting>(), ", ", name_of<typename Descriptor<Voting, Parts...>::Cells>());
+  const char* separator = ": ";
+  ((add(text, separator), add_part<Parts>(text), separator = " | "), ...);
+}
+
+/// A text as a number: its 64-bit FNV-1a.
+struct LayoutNumber {
+  std::uint64_t value = 0xCBF29CE484222325u;
+  constexpr void add(const char* piece) noexcept {
+    for (; *piece != '\0'; ++piece) value = (value ^ static_cast<unsigned char>(*piece)) * 0x100000001B3u;
+  }
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
+
+// shortshot/store/binary.hpp: B-SHOT: one bit for each value of a descriptor, and the distance between such bits.
+//
+// After S. M. Prakhya, B. Liu, W. Lin: B-SHOT: A binary feature descriptor for fast and efficient keypoint matching on
+// 3D point clouds (IROS 2015): the values are taken in groups of four, and the bits of a group say which few of its
+// values make up more than 90 % of their sum.
+#ifndef SHORTSHOT_STORE_BINARY_HPP
+#define SHORTSHOT_STORE_BINARY_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// A descriptor D of D::size values as as many bits: bit j is bit j % 8 of byte j / 8, the bits behind the last one are
+/// zero. A trivial type of alignment 1: 44 bytes for SHOT-352. `Group` values (2 to 8; 4 in the paper) are looked at
+/// together.
+template <class D, int Group = 4>
+struct BinaryDescriptor {
+  static_assert(Group >= 2 && Group <= 8, "BinaryDescriptor<D, Group> supports groups of 2 to 8 values");
+  static constexpr int bits = D::size;
+  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(bits) + 7) / 8;
+  std::uint8_t bytes[size_bytes];
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// All subsets of a group, the one that B-SHOT prefers last: the whole group, then those that are tried, from the last
+/// one to the first, then the empty one. Bit i of a subset stands for value i.
+///
+/// Fewer values are tried first. Of as many values, the subsets that rotating the group turns into each other follow
+/// each other, in the order of the smallest number among them: the smaller it is, the closer together are the values.
+/// That one is the first of them, and each rotation by one place the next.
+///
+/// For four values this is the order that B-SHOT's authors published, but for {1, 3}, which they try before {0, 2}: of
+/// values that are not negative, two disjoint subsets never both have more than 90 %.
+template <int Group>
+struct Subsets {
+  static constexpr int count = 1 << Group;
+  static constexpr unsigned whole = (1u << Group) - 1u;
+  std::uint8_t of[static_cast<std::size_t>(count)];
+
+  constexpr Subsets() noexcept : of{} {
+    int place = count - 1;  // of the empty one
+    for (int values = 1; values <= Group; ++values) {
+      for (unsigned smallest = 1; smallest <= whole; ++smallest) {
+        if (values_of(smallest) != values || !is_smallest(smallest)) continue;
+        unsigned subset = smallest;
+        do {
+          of[--place] = static_cast<std::uint8_t>(subset);
+          subset = rotated(subset);
+        } while (subset != smallest);
+      }
+    }
+  }
+
+  /// How many subsets have more than `values` values: the place of the last one tried of those with as many.
+  static constexpr int larger_than(int values) noexcept {
+    int larger = 0;
+    for (unsigned subset = 1; subset <= whole; ++subset) larger += values_of(subset) > values ? 1 : 0;
+    return larger;
+  }
+  static constexpr unsigned rotated(unsigned subset) noexcept { return (subset << 1 | subset >> (Group - 1)) & whole; }
+  static constexpr int values_of(unsigned subset) noexcept {
+    int values = 0;
+    for (; subset != 0; subset &= subset - 1) ++values;
+    return values;
+  }
+  static constexpr bool is_smallest(unsigned subset) noexcept {
+    unsigned other = rotated(subset);
+    while (other > subset) other = rotated(other);
+    return other == subset;
+  }
+};
+template <int Group>
+inline constexpr Subsets<Group> subsets{};
+
+/// Sum of a subset of `values`, the first two first.
+template <unsigned Subset>
+[[nodiscard, gnu::always_inline]] inline simd::F32 sum_of(const simd::F32* values) noexcept {
+  constexpr int last = [] {
+    int i = 0;
+    while (Subset >> i > 1u) ++i;
+    return i;
+  }();
+  constexpr unsigned others = Subset - (1u << last);
+  if constexpr (others == 0) {
+    return values[last];
+  } else {
+    return sum_of<others>(values) + values[last];
+  }
+}
+
+/// The largest float that is not above 0.9 * sum, for sums from 0: a float is above the one if it is above the other.
+/// (The authors compare with that product in double, whose own rounding never moves it to or across a float.)
+/// The float product is this number or the next one, because 0.9f is less than half a unit of the product too small. It
+/// is the next one if ten times the rest is below the sum. Neither difference is rounded: no term is more than twice
+/// the other, or all are subnormal.
+[[nodiscard]] inline simd::F32 nine_tenths(simd::F32 sum) noexcept {
+  const simd::F32 product = sum * simd::all(0.9f);
+  const simd::F32 rest = sum - product;
+  const simd::Mask above = sum - rest * simd::all(8.0f) > rest + rest;
+  return simd::from_bits(simd::bits_of(product) - simd::keep(above, simd::all_int(1)));
+}
+
+/// Where `found` is 0, the place in subsets<Group>.of of the subset of `Values` values or more that is tried first of
+/// those with a sum above the limit; else `found`. Most groups of SHOT are zero or have one large value: no more is
+/// tried than some lane needs.
+template <int Group, int Values>
+[[nodiscard, gnu::always_inline]] inline simd::I32 find_subsets(const simd::F32* v, simd::F32 limit,
+                                                                simd::I32 found) noexcept {
+  if constexpr (Values == Group) {
+    return found;
+  } else {
+    constexpr int first = Subsets<Group>::larger_than(Values);
+    unroll<Subsets<Group>::larger_than(Values - 1) - first>([&](auto k) {
+      constexpr int place = first + k;
+      const simd::Mask enough = sum_of<subsets<Group>.of[place]>(v) > limit;
+      found = simd::small_max(found, simd::keep(enough, simd::all_int(place)));
+    });
+    return any(found == simd::all_int(0)) ? find_subsets<Group, Values + 1>(v, limit, found) : found;
+  }
+}
+
+/// The places in subsets<Group>.of of as many groups as there are lanes, one group after the other from `values` on.
+template <int Group>
+[[gnu::always_inline]] inline void find_subsets(const float* values, std::int32_t* places) noexcept {
+  constexpr auto stride = static_cast<std::size_t>(Group);
+  simd::F32 v[static_cast<std::size_t>(Group)];
+  unroll<Group>([&](auto i) { v[i] = simd::from_lanes([&](std::size_t k) { return values[k * stride + i]; }); });
+  const simd::F32 sum = sum_of<Subsets<Group>::whole>(v);
+  const simd::I32 empty = simd::drop(sum != simd::all(0.0f), simd::all_int(Subsets<Group>::count - 1));
+  simd::store(places, find_subsets<Group, 1>(v, nine_tenths(sum), empty));
+}
+
+/// The bits of eight groups: as many bytes as a group has values.
+template <int Group>
+inline void binarize_groups(const float* values, std::uint8_t* bytes) noexcept {
+  std::int32_t places[8];
+  for (std::size_t group = 0; group < 8; group += simd::lanes) {
+    find_subsets<Group>(values + group * static_cast<std::size_t>(Group), places + group);
+  }
+  unroll<Group>([&](auto byte) {
+    unsigned bits = 0;
+    unroll<8>([&](auto group) {
+      constexpr int shift = group * Group - byte * 8;
+      if constexpr (shift > -Group && shift < 8) {
+        const unsigned subset = subsets<Group>.of[places[group]];
+        bits |= shift < 0 ? subset >> -shift : subset << shift;
+      }
+    });
+    bytes[byte] = static_cast<std::uint8_t>(bits & 0xFFu);
+  });
+}
+
+/// Ones in a word. __builtin_popcount is a call to the compiler's library where the CPU has no instruction for it.
+[[nodiscard, gnu::always_inline]] inline int count_ones(std::size_t word) noexcept {
+#if defined(__POPCNT__) || defined(__aarch64__)
+  return __builtin_popcountll(word);
+#else
+  constexpr std::size_t every = ~std::size_t{0};
+  word -= word >> 1 & every / 3;                                             // counts of two bits each,
+  word = (word & every / 5) + (word >> 2 & every / 5);                       // of four,
+  word = (word + (word >> 4)) & every / 17;                                  // of eight;
+  return static_cast<int>(word * (every / 255) >> (8 * (sizeof word - 1)));  // and their sum
+#endif
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// The B-SHOT of D::size descriptor values (not negative, of any scale: only ratios count). In each group of `Group`
+/// consecutive values, with S their sum: no bits if all are zero; else the bits of the first subset, in the order of
+/// detail::Subsets (single values, then pairs, ...), whose sum is more than 0.9 S; all bits if there is none, which
+/// includes a group with a NaN. If D::size is no multiple of Group, the last group is filled up with zeros, which have
+/// no bits in `out`.
+///
+/// The sums are added from left to right in single precision, and the comparisons decide as the authors' in double do:
+/// with Group = 4 the bits are theirs. No allocation, no error, reentrant.
+template <class D, int Group = 4>
+void binarize(const float* values, BinaryDescriptor<D, Group>& out) noexcept {
+  constexpr std::size_t bytes = Group;  // of eight groups
+  constexpr std::size_t size = D::size;
+  constexpr std::size_t rest = size % (8 * bytes);
+  std::uint8_t* to = out.bytes;
+  for (std::size_t i = 0; i < size - rest; i += 8 * bytes, to += bytes) detail::binarize_groups<Group>(values + i, to);
+  if constexpr (rest != 0) {
+    float last_values[8 * bytes] = {};
+    std::uint8_t last_bytes[bytes];
+    std::memcpy(last_values, values + size - rest, rest * sizeof(float));
+    detail::binarize_groups<Group>(last_values, last_bytes);
+    if constexpr (rest % 8 != 0) last_bytes[rest / 8] &= static_cast<std::uint8_t>((1u << rest % 8) - 1u);
+    std::memcpy(to, last_bytes, (rest + 7) / 8);
+  }
+}
+
+/// Number of bits that differ (0 to 8 * size_bytes) in two arrays of `size_bytes` bytes of any alignment. No
+/// allocation, no error, reentrant. Always in line: a copy compiled with the instruction for counting ones must not
+/// serve a translation unit compiled without.
+[[nodiscard, gnu::always_inline]] inline int hamming_distance(const std::uint8_t* a, const std::uint8_t* b,
+                                                              std::size_t size_bytes) noexcept {
+  using Word = std::size_t;
+  int distance = 0;
+  const auto add = [&](std::size_t i, std::size_t length) {
+    Word of_a = 0, of_b = 0;
+    std::memcpy(&of_a, a + i, length);
+    std::memcpy(&of_b, b + i, length);
+    distance += detail::count_ones(of_a ^ of_b);
+  };
+  const std::size_t rest = size_bytes % sizeof(Word);
+  for (std::size_t i = 0; i < size_bytes - rest; i += sizeof(Word)) add(i, sizeof(Word));
+  if (rest != 0) add(size_bytes - rest, rest);
+  return distance;
+}
+
+/// Number of bits in which two binary descriptors differ, 0 to D::size.
+template <class D, int Group>
+[[nodiscard, gnu::always_inline]] inline int hamming_distance(const BinaryDescriptor<D, Group>& a,
+                                                              const BinaryDescriptor<D, Group>& b) noexcept {
+  return hamming_distance(a.bytes, b.bytes, sizeof a.bytes);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_STORE_BINARY_HPP
+
+// shortshot/store/code_scale.hpp: how fine the steps of coded descriptors are, for each descriptor.
+#ifndef SHORTSHOT_STORE_CODE_SCALE_HPP
+#define SHORTSHOT_STORE_CODE_SCALE_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// Steps in 1 for the values of D in codes of `Bits` bits. By default for the published descriptors: 512 in 8 bits; in
+/// 4 bits 32, their values are seldom above 15 / 32; in 3 bits so many that the same values are cut off as in 4 bits.
+/// Specialize it for your own, as below.
+template <class D, int Bits>
+inline constexpr int code_scale = Bits == 8 ? 512 : 32;
+template <class D>
+inline constexpr int code_scale<D, 3> = (7 * code_scale<D, 4> + 7) / 15;
+
+/// Compact descriptors in 4 bits: measured.
+template <>
+inline constexpr int code_scale<ShapeColor95, 4> = 50;
+template <>
+inline constexpr int code_scale<RoomColor95, 4> = 50;
+template <>
+inline constexpr int code_scale<ShapeColor32, 4> = 40;
+template <>
+inline constexpr int code_scale<HeightShape96, 4> = 60;
+template <>
+inline constexpr int code_scale<ColorRings27, 4> = 50;
+
+/// And in 8 bits: no value is cut off. The whole is at least sqrt(1 + 1.5^2) = 1.80 times as long as where points are,
+/// and as 1.5 for colors: values without a sign are below 1 / 1.8 = 0.56 and 0.866 / 1.5 = 0.58, those with one below
+/// 0.62 / 1.8 = 0.35 (no color is farther than 3.3 times 60 from another one), which is 127 / 360. HeightShape96 may
+/// have a 1.
+template <>
+inline constexpr int code_scale<ShapeColor95, 8> = 360;
+template <>
+inline constexpr int code_scale<RoomColor95, 8> = 360;
+template <>
+inline constexpr int code_scale<ShapeColor32, 8> = 360;
+template <>
+inline constexpr int code_scale<HeightShape96, 8> = 255;
+template <>
+inline constexpr int code_scale<ColorRings27, 8> = 360;
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+#endif  // SHORTSHOT_STORE_CODE_SCALE_HPP
+
+// shortshot/store/coded.hpp: a descriptor in 8, 4 or 3 bits a value, and the distance between such.
+#ifndef SHORTSHOT_STORE_CODED_HPP
+#define SHORTSHOT_STORE_CODED_HPP
+
+// shortshot/store/code_distance.hpp: numbers of a few bits one behind the other, and the squared distance of two rows
+// of them.
+#ifndef SHORTSHOT_STORE_CODE_DISTANCE_HPP
+#define SHORTSHOT_STORE_CODE_DISTANCE_HPP
+
+// shortshot/base/simd_halves.hpp: two numbers in a register of 32 bits: the DSP instructions of Cortex-M4 and later.
+#ifndef SHORTSHOT_BASE_SIMD_HALVES_HPP
+#define SHORTSHOT_BASE_SIMD_HALVES_HPP
+
+#if defined(__ARM_FEATURE_DSP) && defined(__ARM_FEATURE_SIMD32) && (defined(__clang__) || __GNUC__ >= 10)
+#define SHORTSHOT_HAS_HALVES
+#include <arm_acle.h>
+#endif
+
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
+
+/// Is it worth a loop of its own?
+#if defined(SHORTSHOT_HAS_HALVES)
+inline constexpr bool has_halves = true;
+#else
+inline constexpr bool has_halves = false;
+#endif
+
+/// `sum` and the squared differences of the four bytes of a and b.
+[[nodiscard, gnu::always_inline]] inline std::uint32_t add_squared_differences(std::uint32_t a, std::uint32_t b,
+                                                                               std::uint32_t sum) noexcept {
+#if defined(SHORTSHOT_HAS_HALVES)
+#if defined(__clang__)
+  using Bytes = int8x4_t;  // its header says so; GCC's has the sign of the instruction
+#else
+  using Bytes = uint8x4_t;
+#endif
+  const auto halves = [](std::uint32_t v) { return static_cast<uint16x2_t>(__uxtb16(static_cast<Bytes>(v))); };
+  const auto even = static_cast<std::int32_t>(__usub16(halves(a), halves(b)));
+  const auto odd = static_cast<std::int32_t>(__usub16(halves(a >> 8), halves(b >> 8)));
+  const std::int32_t half = __smlad(even, even, static_cast<std::int32_t>(sum));  // sums wrap, as unsigned ones do
+  return static_cast<std::uint32_t>(__smlad(odd, odd, half));
+#else
+  for (int shift = 0; shift < 32; shift += 8) {
+    const auto difference = static_cast<std::int32_t>(a >> shift & 255u) - static_cast<std::int32_t>(b >> shift & 255u);
+    sum += static_cast<std::uint32_t>(difference * difference);
+  }
+  return sum;
+#endif
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd
+#endif  // SHORTSHOT_BASE_SIMD_HALVES_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Number `place` of those of `Bits` bits that lie one behind the other, the lowest bits first.
+template <int Bits>
+[[nodiscard, gnu::always_inline]] inline unsigned number_at(const std::uint8_t* bytes, std::size_t place) noexcept {
+  constexpr unsigned mask = (1u << Bits) - 1u;
+  const std::size_t bit = place * static_cast<std::size_t>(Bits);
+  unsigned number = static_cast<unsigned>(bytes[bit / 8]) >> bit % 8;
+  if constexpr (8 % Bits != 0) {
+    if (bit % 8 + static_cast<std::size_t>(Bits) > 8)
+      number |= static_cast<unsigned>(bytes[bit / 8 + 1]) << (8 - bit % 8);
+  }
+  return number & mask;
+}
+
+/// The sum of squared differences of the numbers in `Width` bytes, in a form that compilers turn into lanes at -O2,
+/// too.
+template <int Bits, std::size_t Width>
+[[nodiscard, gnu::always_inline]] inline std::uint32_t squared_piece_distance(const std::uint8_t* a,
+                                                                              const std::uint8_t* b) noexcept {
+  std::int32_t sum = 0;
+  if constexpr (Bits == 3) {
+    for (std::size_t k = 0; k < Width * 8 / 3; ++k) {
+      const int difference = static_cast<int>(number_at<3>(a, k)) - static_cast<int>(number_at<3>(b, k));
+      sum += difference * difference;
+    }
+  } else {
+    constexpr unsigned mask = (1u << Bits) - 1u;
+    for (std::size_t k = 0; k < Width; ++k) {
+      const auto low = static_cast<std::int16_t>((a[k] & mask) - (b[k] & mask));
+      sum += low * low;
+    }
+    for (std::size_t k = 0; Bits == 4 && k < Width; ++k) {
+      const auto high = static_cast<std::int16_t>((a[k] >> 4) - (b[k] >> 4));
+      sum += high * high;
+    }
+  }
+  return static_cast<std::uint32_t>(sum);
+}
+
+/// The sum of squared differences of the numbers of 8, 4 or 3 bits in `size` bytes; of up to 66051 numbers it fits.
+template <int Bits>
+[[nodiscard]] inline std::uint32_t squared_code_distance(const std::uint8_t* a, const std::uint8_t* b,
+                                                         std::size_t size) noexcept {
+  static_assert(Bits == 8 || Bits == 4 || Bits == 3, "whole numbers in every piece");
+  std::uint32_t sum = 0;
+  std::size_t i = 0;
+  if constexpr (simd::has_halves && Bits != 3) {
+    for (; i + 4 <= size; i += 4) {
+      std::uint32_t of_a, of_b;
+      std::memcpy(&of_a, a + i, 4);
+      std::memcpy(&of_b, b + i, 4);
+      if constexpr (Bits == 8) {
+        sum = simd::add_squared_differences(of_a, of_b, sum);
+      } else {
+        constexpr std::uint32_t low = 0x0F0F0F0Fu;
+        sum = simd::add_squared_differences(of_a & low, of_b & low, sum);
+        sum = simd::add_squared_differences(of_a >> 4 & low, of_b >> 4 & low, sum);
+      }
+    }
+  } else {
+    constexpr std::size_t width = Bits == 3 ? 3 : Bits == 4 ? 16 : 32;
+    for (; i + width <= size; i += width) sum += squared_piece_distance<Bits, width>(a + i, b + i);
+  }
+  const std::size_t whole = i * 8 / static_cast<std::size_t>(Bits);
+  for (std::size_t k = whole; k < size * 8 / static_cast<std::size_t>(Bits); ++k) {
+    const int difference = static_cast<int>(number_at<Bits>(a, k)) - static_cast<int>(number_at<Bits>(b, k));
+    sum += static_cast<std::uint32_t>(difference * difference);
+  }
+  return sum;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_CODE_DISTANCE_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// A descriptor D of D::size values, each as a whole multiple of `step`, in `Bits` bits (8, 4 or 3): from 0 to
+/// 2^Bits - 1 (255, 15, 7), or in parts whose values have signs from -m to m with m = 2^(Bits - 1) - 1 (127, 7, 3),
+/// which are stored as 1 to 2 m + 1. What lies beyond is cut off. A trivial type of alignment 1.
+///
+/// Layout: the bits of value i are those from Bits * i on, the lowest ones of a byte first; what is left over at the
+/// end is 0. So is value 2 i of 4 bits the low half of byte i.
+///
+/// Steps are 1 / `Scale`; code_scale<D, Bits> cuts off few values.
+template <class D, int Bits, int Scale = code_scale<D, Bits>>
+struct CodedDescriptor {
+  static_assert(Bits == 8 || Bits == 4 || Bits == 3, "CodedDescriptor<D, Bits> supports 8, 4 or 3 bits a value");
+  static_assert(Scale >= 1 && Scale <= 65536, "CodedDescriptor<D, Bits, Scale> supports scales from 1 to 65536");
+  static_assert(D::size >= 1 && D::size <= 66051, "CodedDescriptor<D, Bits> supports 1 to 66051 values");
+  static_assert(std::uint64_t{66051} * 255 * 255 <= 0xFFFFFFFFu, "squared_distance() cannot overflow");
+  static constexpr int size = D::size;
+  static constexpr int bits = Bits;
+  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(D::size) * Bits + 7) / 8;
+  /// The L2 distance of two descriptors is step * sqrt(squared_distance(a, b)).
+  static constexpr float step = 1.0f / static_cast<float>(Scale);
+  std::uint8_t bytes[size_bytes];
+};
+
+/// One byte a value, a quarter of its floats: 336 bytes for SCSH-336, with steps of 1/512 from 0 to 255/512.
+///
+/// A value below that comes back within half a step, 1/1024 (and 6e-11 for rounding), and so the distance of two
+/// descriptors, at the worst, within sqrt(D::size) / 512. What it costs in practice: of 12,630 key points of generated
+/// tabletop scenes, seen twice with other pixels and noise, 92 % (SSH-32) to 97 % (SCSH-696) have the same nearest
+/// neighbor in the other view as with floats; the others have one at most 1.11 times as far away, and as many of all
+/// are right. Distances to it, 0.07 to 0.18 long, are wrong by 0.001 (root mean square). Steps of 1/255, which reach 1,
+/// make that 0.0016 to 0.002; finer ones cut off too much: in SSH-32 every fifth value is above 1/4.
+///
+/// SHOT-352 and CSHOT-1344 have peaks above 1/2 (one value in 4,000 and in 200,000). Nearest neighbors are kept as
+/// well (95 % and 98 %), but the distance from a descriptor with such a peak can be too small by 0.4 and 0.2.
+///
+/// Compact descriptors have steps of 1/360, and no value is cut off.
+template <class D, int Scale = code_scale<D, 8>>
+using ByteDescriptor = CodedDescriptor<D, 8, Scale>;
+
+/// Half a byte a value, an eighth of its floats: 95 bytes for ShapeColor95.
+template <class D, int Scale = code_scale<D, 4>>
+using NibbleDescriptor = CodedDescriptor<D, 4, Scale>;
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
+
+/// May value i of D be below 0?
+template <class D>
+struct SignsOf {
+  [[nodiscard, gnu::always_inline]] static constexpr bool at(int) noexcept { return false; }
+};
+template <class Voting, class... Parts>
+struct SignsOf<Descriptor<Voting, Parts...>> {
+  [[nodiscard, gnu::always_inline]] static constexpr bool at(int value) noexcept {
+    int part = 0;
+    bool has_sign = false;
+    ((has_sign = has_sign || (Parts::has_signs && value >= Descriptor<Voting, Parts...>::offset(part) &&
+                              value < Descriptor<Voting, Parts...>::offset(part) + Parts::size),
+      ++part),
+     ...);
+    return has_sign;
+  }
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// What is stored of a value: the nearest whole number of steps (of the product, a float), halves away from 0. NaN
+/// becomes 0 steps. Compared before it is converted.
+template <int Bits>
+[[nodiscard]] inline unsigned code_of(float value, float scale, bool has_sign) noexcept {
+  constexpr int zero = 1 << (Bits - 1);  // as it is stored where there are signs
+  const float half_steps = unfused(value * (2.0f * scale));
+  const float high = half_steps < 0.0f ? -half_steps : half_steps;
+  const int most = has_sign ? zero - 1 : 2 * zero - 1;
+  const auto limit = static_cast<float>(2 * most);
+  const int steps = high < limit ? (static_cast<std::int32_t>(high) + 1) / 2 : high >= limit ? most : 0;
+  if (!has_sign) return half_steps > 0.0f ? static_cast<unsigned>(steps) : 0u;
+  return static_cast<unsigned>(half_steps < 0.0f ? zero - steps : zero + steps);
+}
+
+/// The whole number of steps that value i is stored as.
+template <class D, int Bits, int Scale>
+[[nodiscard, gnu::always_inline]] inline int steps_at(const CodedDescriptor<D, Bits, Scale>& coded, int i) noexcept {
+  const auto stored = static_cast<int>(number_at<Bits>(coded.bytes, static_cast<std::size_t>(i)));
+  return SignsOf<D>::at(i) ? stored - (1 << (Bits - 1)) : stored;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// The D::size values of a descriptor as codes. NaN becomes 0. No allocation, no error, reentrant; the same bytes on
+/// every machine.
+///
+/// In place, too: `out` may lie where `values` begin. A byte is written when its values have been read, and lies before
+/// those that have not. A union of both needs no second buffer:
+///
+///     union { float values[D::size]; ByteDescriptor<D> bytes; } d;
+///     if (describe_at<D>(cloud, search, index, 0.04f, workspace, d.values) == Status::ok) quantize(d.values, d.bytes);
+template <class D, int Bits, int Scale>
+void quantize(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept {
+  std::uint8_t* byte = out.bytes;  // of a type that may alias the floats
+  unsigned waiting = 0;
+  int count = 0;  // of bits that wait
+  for (int i = 0; i < D::size; ++i) {
+    waiting |= detail::code_of<Bits>(values[i], static_cast<float>(Scale), detail::SignsOf<D>::at(i)) << count;
+    for (count += Bits; count >= 8 || (count > 0 && i == D::size - 1); count -= 8) {
+      *byte++ = static_cast<std::uint8_t>(waiting & 255u);
+      waiting >>= 8;
+    }
+  }
+}
+
+/// The values that codes stand for, D::size floats. No allocation, no error, reentrant; the same bits on every machine.
+template <class D, int Bits, int Scale>
+void dequantize(const CodedDescriptor<D, Bits, Scale>& coded, float* values) noexcept {
+  for (int i = 0; i < D::size; ++i) {
+    values[i] = static_cast<float>(detail::steps_at(coded, i)) * CodedDescriptor<D, Bits, Scale>::step;
+  }
+}
+
+/// The squared L2 distance in steps, exact: an integer from 0 to D::size * (2^Bits - 1)^2, for which 32 bits are
+/// enough. The order of distances needs no root.
+template <class D, int Bits, int Scale>
+[[nodiscard]] std::uint32_t squared_distance(const CodedDescriptor<D, Bits, Scale>& a,
+                                             const CodedDescriptor<D, Bits, Scale>& b) noexcept {
+  return detail::squared_code_distance<Bits>(a.bytes, b.bytes, sizeof a.bytes);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_STORE_CODED_HPP
+
+// shortshot/store/half.hpp: a descriptor in 16-bit floats, half of its floats.
+#ifndef SHORTSHOT_STORE_HALF_HPP
+#define SHORTSHOT_STORE_HALF_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// A descriptor D of D::size values as IEEE 754's binary16 (11 bits of precision: a value of a descriptor comes back
+/// within 1/4096 of itself, or 3e-8). A trivial type of alignment 2. Distances are those of the floats that they stand
+/// for.
+template <class D>
+struct HalfDescriptor {
+  static_assert(D::size >= 1 && D::size <= 66051, "HalfDescriptor<D> supports 1 to 66051 values");
+  static constexpr int size = D::size;
+  static constexpr std::size_t size_bytes = 2 * static_cast<std::size_t>(D::size);
+  std::uint16_t values[D::size];
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// The nearest half, ties to even, as IEEE 754 rounds; from 65520 on infinity. NaN stays NaN (a quiet one). In
+/// integers: neither compilers nor CPUs have a say.
+[[nodiscard]] inline std::uint16_t half_of(float value) noexcept {
+  const std::uint32_t bits = math::bits_of(value);
+  const std::uint32_t sign = bits >> 16 & 0x8000u;
+  const std::uint32_t high = bits & 0x7FFFFFFFu;
+  if (high >= 0x7F800000u) return static_cast<std::uint16_t>(sign | (high > 0x7F800000u ? 0x7E00u : 0x7C00u));
+  if (high >= 0x477FF000u) return static_cast<std::uint16_t>(sign | 0x7C00u);
+  std::uint32_t whole = high - 0x38000000u;  // the exponent's bias is 112 less
+  std::uint32_t shift = 13;
+  if (high < 0x38800000u) {  // below 2^-14: multiples of 2^-24
+    shift = 126 - (high >> 23);
+    if (shift > 25) return static_cast<std::uint16_t>(sign);
+    whole = (high & 0x7FFFFFu) | 0x800000u;
+  }
+  const std::uint32_t half_unit = (1u << (shift - 1)) - 1u + (whole >> shift & 1u);
+  return static_cast<std::uint16_t>(sign | (whole + half_unit) >> shift);
+}
+
+/// The float that a half stands for, exactly.
+[[nodiscard]] inline float float_of_half(std::uint16_t half) noexcept {
+  const std::uint32_t sign = std::uint32_t{half & 0x8000u} << 16;
+  std::uint32_t high = half & 0x7FFFu;
+  if (high >= 0x7C00u) return math::float_of(sign | 0x7F800000u | (high & 0x3FFu) << 13);
+  if (high >= 0x400u) return math::float_of(sign | ((high << 13) + 0x38000000u));
+  if (high == 0) return math::float_of(sign);
+  std::uint32_t exponent = 113;  // of 2^-14
+  for (; (high & 0x400u) == 0; high <<= 1) --exponent;
+  return math::float_of(sign | exponent << 23 | (high & 0x3FFu) << 13);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// The D::size values of a descriptor as halves, each the nearest one (ties to even). No allocation, no error,
+/// reentrant; the same bits on every machine, whatever it does with subnormal floats.
+template <class D>
+void quantize(const float* values, HalfDescriptor<D>& out) noexcept {
+  for (int i = 0; i < D::size; ++i) out.values[i] = detail::half_of(values[i]);
+}
+
+/// The floats that halves stand for.
+template <class D>
+void dequantize(const HalfDescriptor<D>& halves, float* values) noexcept {
+  for (int i = 0; i < D::size; ++i) values[i] = detail::float_of_half(halves.values[i]);
+}
+
+/// The squared L2 distance of the floats that halves stand for, summed up as squared_l2_distance() does: what matching
+/// compares.
+template <class D>
+[[nodiscard]] float squared_distance(const HalfDescriptor<D>& a, const HalfDescriptor<D>& b) noexcept {
+  float sums[8] = {};
+  for (int i = 0; i < D::size; ++i) {
+    const float difference = detail::float_of_half(a.values[i]) - detail::float_of_half(b.values[i]);
+    sums[i % 8] += extend::unfused(difference * difference);
+  }
+  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_STORE_HALF_HPP
+
+// shortshot/store/sum_bits.hpp: a descriptor in bits that each say whether a sum of a few of its values is positive.
+#ifndef SHORTSHOT_STORE_SUM_BITS_HPP
+#define SHORTSHOT_STORE_SUM_BITS_HPP
+
+// shortshot/store/draws.hpp: random numbers that are the same everywhere, made while compiling.
+#ifndef SHORTSHOT_STORE_DRAWS_HPP
+#define SHORTSHOT_STORE_DRAWS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
+
+/// The generator of std::mt19937 (M. Matsumoto, T. Nishimura: Mersenne Twister, ACM TOMACS 8, 1998), for constants.
+class MersenneTwister {
+ public:
+  constexpr explicit MersenneTwister(std::uint32_t seed) noexcept : state_{seed} {
+    for (std::uint32_t i = 1; i < count; ++i) {
+      const std::uint32_t before = state_[i - 1];
+      state_[i] = 1812433253u * (before ^ before >> 30) + i;
+    }
+  }
+  constexpr std::uint32_t operator()() noexcept {
+    const std::size_t next = (at_ + 1) % count;
+    const std::uint32_t joined = (state_[at_] & 0x80000000u) | (state_[next] & 0x7FFFFFFFu);
+    std::uint32_t number = state_[(at_ + 397) % count] ^ joined >> 1 ^ ((joined & 1u) != 0 ? 0x9908B0DFu : 0u);
+    state_[at_] = number;
+    at_ = next;
+    number ^= number >> 11;
+    number ^= number << 7 & 0x9D2C5680u;
+    number ^= number << 15 & 0xEFC60000u;
+    return number ^ number >> 18;
+  }
+
+ private:
+  static constexpr std::size_t count = 624;
+  std::uint32_t state_[count];
+  std::size_t at_ = 0;
+};
+
+/// The first numbers of mt19937 with seed 1, modulo `Size`.
+template <int Size, std::size_t Count>
+struct Draws {
+  std::uint16_t of[Count];
+  constexpr Draws() noexcept : of{} {
+    MersenneTwister next(1);
+    for (std::uint16_t& draw : of) draw = static_cast<std::uint16_t>(next() % static_cast<std::uint32_t>(Size));
+  }
+};
+template <int Size, std::size_t Count>
+inline constexpr Draws<Size, Count> draws{};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_DRAWS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// A descriptor D as `Bits` signs of sparse sums: bit j is bit j % 8 of byte j / 8, and says whether the sum of `Draws`
+/// of its values in nibbles, with the signs -, +, -, +, ..., is above 0. Which values, is drawn once and for all: value
+/// g() % D::size with g an std::mt19937 with seed 1, for one bit after the other. A trivial type of alignment 1.
+///
+/// 352 bits of four draws are 44 bytes, the least that keeps most of what ShapeColor95 finds; 256 bits of six draws are
+/// 32 bytes.
+template <class D, int Bits = 352, int Draws = 4>
+struct SumBits {
+  static_assert(Bits >= 8 && Bits <= 65536 && Bits % 8 == 0, "SumBits<D, Bits> supports whole bytes: 8 to 65536 bits");
+  static_assert(Draws >= 2 && Draws <= 64, "SumBits<D, Bits, Draws> supports 2 to 64 draws for a bit");
+  static constexpr int bits = Bits;
+  static constexpr std::size_t size_bytes = static_cast<std::size_t>(Bits) / 8;
+  std::uint8_t bytes[size_bytes];
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// The bits of a descriptor in nibbles. The same ones on every machine: there is nothing but integers. Codes of parts
+/// with signs count as -7 to 7, the others as 0 to 15. No allocation, no error, reentrant.
+template <class D, int Scale, int Bits, int Draws>
+void binarize(const NibbleDescriptor<D, Scale>& nibbles, SumBits<D, Bits, Draws>& out) noexcept {
+  constexpr auto& draws = detail::draws<D::size, static_cast<std::size_t>(Bits) * Draws>;
+  const std::uint16_t* draw = draws.of;
+  for (std::uint8_t& byte : out.bytes) {
+    unsigned bits = 0;
+    for (int bit = 0; bit < 8; ++bit) {
+      int sum = 0;
+      for (int k = 0; k < Draws; ++k) {
+        const int steps = detail::steps_at(nibbles, *draw++);
+        sum += k % 2 == 0 ? -steps : steps;
+      }
+      if (sum > 0) bits |= 1u << bit;
+    }
+    byte = static_cast<std::uint8_t>(bits);
+  }
+}
+
+/// The same of D::size values, by way of nibbles with steps of 1 / code_scale<D, 4>.
+template <class D, int Bits, int Draws>
+void binarize(const float* values, SumBits<D, Bits, Draws>& out) noexcept {
+  NibbleDescriptor<D> nibbles;
+  quantize(values, nibbles);
+  binarize(nibbles, out);
+}
+
+/// Number of bits in which two descriptors differ, 0 to Bits.
+template <class D, int Bits, int Draws>
+[[nodiscard, gnu::always_inline]] inline int hamming_distance(const SumBits<D, Bits, Draws>& a,
+                                                              const SumBits<D, Bits, Draws>& b) noexcept {
+  return hamming_distance(a.bytes, b.bytes, sizeof a.bytes);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_STORE_SUM_BITS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// The descriptor that a storage is of, what its rows are made of in files, how it is said, how it is made,
+/// and how far two of them are apart in whole numbers (halves are not).
+template <class Stored>
+struct Storage;
+template <class D>
+struct Storage<HalfDescriptor<D>> {
+  using Descriptor = D;
+  using Value = std::uint16_t;
+  template <class Text>
+  static constexpr void add_name(Text& text) {
+    add(text, "halves");
+  }
+  static void make(const float* values, HalfDescriptor<D>& out) noexcept { quantize(values, out); }
+};
+template <class D, int Bits, int Scale>
+struct Storage<CodedDescriptor<D, Bits, Scale>> {
+  using Descriptor = D;
+  using Value = std::uint8_t;
+  template <class Text>
+  static constexpr void add_name(Text& text) {
+    add_all(text, "codes of ", Bits, " bits, steps of 1/", Scale);
+  }
+  static void make(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept { quantize(values, out); }
+  [[nodiscard]] static std::uint32_t distance(const CodedDescriptor<D, Bits, Scale>& a,
+                                              const CodedDescriptor<D, Bits, Scale>& b) noexcept {
+    return squared_distance(a, b);
+  }
+};
+template <class D, int Group>
+struct Storage<BinaryDescriptor<D, Group>> {
+  using Descriptor = D;
+  using Value = std::uint8_t;
+  template <class Text>
+  static constexpr void add_name(Text& text) {
+    add_all(text, "bits of groups of ", Group);
+  }
+  static void make(const float* values, BinaryDescriptor<D, Group>& out) noexcept { binarize(values, out); }
+  [[nodiscard]] static std::uint32_t distance(const BinaryDescriptor<D, Group>& a,
+                                              const BinaryDescriptor<D, Group>& b) noexcept {
+    return static_cast<std::uint32_t>(hamming_distance(a, b));
+  }
+};
+template <class D, int Bits, int Draws>
+struct Storage<SumBits<D, Bits, Draws>> {
+  using Descriptor = D;
+  using Value = std::uint8_t;
+  template <class Text>
+  static constexpr void add_name(Text& text) {
+    add_all(text, Bits, " bits of sums of ", Draws, ", steps of 1/", code_scale<D, 4>);
+  }
+  static void make(const float* values, SumBits<D, Bits, Draws>& out) noexcept { binarize(values, out); }
+  [[nodiscard]] static std::uint32_t distance(const SumBits<D, Bits, Draws>& a,
+                                              const SumBits<D, Bits, Draws>& b) noexcept {
+    return static_cast<std::uint32_t>(hamming_distance(a, b));
+  }
+};
+
+/// The descriptor's layout, and how it is stored: see storage_layout().
+template <class Stored, class Text>
+constexpr void add_storage_layout(Text& text) {
+  add_layout(text, static_cast<const typename Storage<Stored>::Descriptor*>(nullptr));
+  add(text, " in ");
+  Storage<Stored>::add_name(text);
+}
+
+/// storage_layout() as a number, for where there are no strings.
+template <class Stored>
+inline constexpr std::uint64_t storage_number = [] {
+  LayoutNumber text;
+  add_storage_layout<Stored>(text);
+  return text.value;
+}();
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_STORAGE_HPP
+
+// shortshot/recognition/climb.hpp: from a vote to a maximum of the density of votes.
+//
+// After D. Comaniciu, P. Meer: Mean shift: A robust approach toward feature space analysis (PAMI 24, 2002), with a
+// Gaussian kernel.
+#ifndef SHORTSHOT_RECOGNITION_CLIMB_HPP
+#define SHORTSHOT_RECOGNITION_CLIMB_HPP
+
+// shortshot/recognition/vote_density.hpp: how dense votes are at a place, and where their mean lies from there.
+#ifndef SHORTSHOT_RECOGNITION_VOTE_DENSITY_HPP
+#define SHORTSHOT_RECOGNITION_VOTE_DENSITY_HPP
+
+// shortshot/recognition/vote_centers.hpp: votes for an object's center, as lanes read them.
+#ifndef SHORTSHOT_RECOGNITION_VOTE_CENTERS_HPP
+#define SHORTSHOT_RECOGNITION_VOTE_CENTERS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// A vote for an object's center.
+struct Vote {
+  Point center;
+  std::uint32_t object_class;
+  std::uint32_t instance;
+};
+
+/// Centers of votes, borrowed. A register that they do not fill is filled with the last one at an infinite x: out of
+/// any reach, and nothing overflows on the way.
+struct VoteCenters {
+  const float* x;
+  const float* y;
+  const float* z;
+  std::size_t padded;  ///< how many there are with these; a multiple of lanes
+};
+
+/// How far some votes lie from a place.
+struct VoteOffsets {
+  simd::F32 x, y, z;
+  simd::F32 d2;  ///< as squared_distance() has it
+};
+
+[[nodiscard]] SHORTSHOT_INLINE VoteOffsets offsets(const VoteCenters& votes, std::size_t i,
+                                                   const Point& from) noexcept {
+  const simd::F32 x = simd::load(votes.x + i) - simd::all(from.x);
+  const simd::F32 y = simd::load(votes.y + i) - simd::all(from.y);
+  const simd::F32 z = simd::load(votes.z + i) - simd::all(from.z);
+  return {x, y, z, (x * x + y * y) + z * z};
+}
+
+[[nodiscard]] constexpr std::size_t padded(std::size_t count) noexcept {
+  return (count + simd::lanes - 1) / simd::lanes * simd::lanes;
+}
+
+/// Fills the last register of columns of centers.
+inline void pad(float* x, float* y, float* z, std::size_t count) noexcept {
+  for (std::size_t i = count; i < padded(count); ++i) {
+    x[i] = extend::math::float_of(0x7F800000u);
+    y[i] = y[count - 1];
+    z[i] = z[count - 1];
+  }
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_VOTE_CENTERS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// e^-t, for t from 0 to 80: within 3e-7 of it, relatively, and the same on every machine, as libm's is not.
+[[nodiscard]] SHORTSHOT_INLINE simd::F32 exp_minus(simd::F32 t) noexcept {
+  using simd::all;
+  using simd::F32;
+  using simd::I32;
+  constexpr float factors[] = {1.0f / 720.0f, 1.0f / 120.0f, 1.0f / 24.0f, 1.0f / 6.0f, 0.5f, 1.0f, 1.0f};
+  const I32 halvings = shift_right(truncate_to_int(t * all(2.88539008f)) + simd::all_int(1), 1);  // t / ln 2, rounded
+  const F32 n = to_float(halvings);
+  const F32 r = (n * all(0.693359375f) - t) - n * all(2.12194440e-4f);  // ln 2 in two parts; |r| <= ln 2 / 2
+  F32 sum = all(factors[0]);
+  unroll<6>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sum = all(factors[k + 1]) + r * sum; });
+  return simd::from_bits(bits_of(sum) - shift_left(halvings, 23));  // exactly: above 2^-126
+}
+[[nodiscard]] inline float exp_minus(float t) noexcept { return simd::largest(exp_minus(simd::all(t))); }
+
+/// The density of votes (finite, of one class): the sum of w = exp(-d^2 / (2 h^2)) over their distances d, with h the
+/// bandwidth.
+class VoteDensity {
+ public:
+  static constexpr float reach = 6.0f;  ///< in bandwidths; the weight of a vote that far away is lost next to a 1
+
+  explicit VoteDensity(float bandwidth) noexcept
+      : bandwidth_(bandwidth),
+        reach_d2_(reach * reach * bandwidth * bandwidth),
+        factor_(0.5f / (bandwidth * bandwidth)) {}
+
+  [[nodiscard]] float bandwidth() const noexcept { return bandwidth_; }
+
+  /// What a vote adds to the density at a place.
+  [[nodiscard]] float weight(const Vote& vote, const Point& at) const noexcept {
+    const float d2 = squared_distance(vote.center, at);
+    return d2 < reach_d2_ ? exp_minus(extend::unfused(factor_ * d2)) : 0.0f;
+  }
+
+  struct Sums {
+    float density;
+    Point shift;  ///< of w times the vote's offset: of differences, so that nothing is lost far away from the origin
+  };
+
+  /// Of votes that include all in reach. They are added one after the other, whatever the number of lanes; one that is
+  /// out of reach adds zeros, as if it were not there. Offsets of the votes must be finite.
+  [[nodiscard]] Sums at(const Point& place, const VoteCenters& votes) const noexcept {
+    using simd::F32;
+    const F32 reach_d2 = simd::all(reach_d2_);
+    const F32 factor = simd::all(factor_);
+    Sum sum;
+    for (std::size_t i = 0; i < votes.padded; i += simd::lanes) {
+      const VoteOffsets offset = offsets(votes, i, place);
+      const simd::Mask reached = offset.d2 < reach_d2;
+      const F32 w = keep(reached, exp_minus(factor * keep(reached, offset.d2)));
+      sum.add(w, w * keep(reached, offset.x), w * offset.y, w * offset.z);  // x may be infinite
+    }
+    return sum.result();
+  }
+
+ private:
+  /// Four sums, of numbers in lanes.
+  class Sum {
+   public:
+    template <class F32>
+    SHORTSHOT_INLINE void add(F32 w, F32 x, F32 y, F32 z) noexcept {
+      if constexpr (simd::lanes == 1) {
+        const F32 terms[] = {w, x, y, z};
+        for (int k = 0; k < 4; ++k) sums_[k] += simd::largest(terms[k]);
+      } else {
+        simd::Quad terms[simd::lanes];
+        transpose(bits_of(w), bits_of(x), bits_of(y), bits_of(z), terms);
+        unroll<simd::lanes>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sums_ += reinterpret_cast<Four>(terms[k]); });
+      }
+    }
+    [[nodiscard]] Sums result() const noexcept { return {sums_[0], {sums_[1], sums_[2], sums_[3]}}; }
+
+   private:
+    using Four = float __attribute__((vector_size(16)));
+    Four sums_{};
+  };
+
+  float bandwidth_;
+  float reach_d2_;
+  float factor_;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_VOTE_DENSITY_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// A place and how dense votes are there.
+struct Peak {
+  Point at;
+  float density;
+};
+
+/// The maximum where the mean shift from a vote's center ends, after 100 steps at the most. reachable(place) gives
+/// VoteCenters with all votes of the class that are in reach of a place; others among them change no bit.
+template <class Reachable>
+[[nodiscard]] inline Peak climb(const VoteDensity& density, const Point& from, const Reachable& reachable) noexcept {
+  constexpr float still = 1e-3f;  // a shift that ends the climb, in bandwidths
+  constexpr int most_steps = 100;
+  const float still_d2 = still * still * density.bandwidth() * density.bandwidth();
+  Peak peak{from, 0.0f};
+  Point at = from;
+  for (int step = 0; step < most_steps; ++step) {
+    const VoteDensity::Sums sums = density.at(at, reachable(at));
+    if (!(sums.density > peak.density)) break;  // it grows, but for rounding, from the 1 of the vote itself
+    peak = {at, sums.density};
+    at = {at.x + sums.shift.x / sums.density, at.y + sums.shift.y / sums.density, at.z + sums.shift.z / sums.density};
+    if (!(squared_distance(at, peak.at) > still_d2)) break;
+  }
+  return peak;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_CLIMB_HPP
+
+// shortshot/recognition/flash_model.hpp: a trained recognizer as bytes that are read where they lie, in flash:
+// save_for_flash() writes them.
+//
+// All numbers are little-endian, floats by their bits:
+//
+//      0  8 characters "SSHOTFLA", 4 bytes format version, 4 bytes size of all, a multiple of 4
+//     16  8 bytes storage_number of what is stored
+//     24  options: 4 bytes each bandwidth, neighbors, most
+//     36  4 bytes each: bytes of a row, codewords, instances, classes, bytes of text
+//     56  4 bytes, as a float: the unit of centers in meters, a power of two
+//     60  for each instance 2 bytes class; 2 bytes 0 if that is no multiple of 4
+//         for each codeword 2 bytes instance, 3 times 2 bytes center in the key point's frame, signed
+//         rows of codes or bits, one per codeword, without gaps
+//         text, a 0 behind each: storage_layout, names of classes, names of instances
+//         up to three bytes 0
+//         8 bytes checksum (64-bit FNV-1a) of all bytes before it
+#ifndef SHORTSHOT_RECOGNITION_FLASH_MODEL_HPP
+#define SHORTSHOT_RECOGNITION_FLASH_MODEL_HPP
+
+// shortshot/store/checksum.hpp: by which damage is noticed: 64-bit FNV-1a.
+//
+// FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
+// does once in 2^64 times. It is no protection from who means harm; nobody believes a number because of it.
+#ifndef SHORTSHOT_STORE_CHECKSUM_HPP
+#define SHORTSHOT_STORE_CHECKSUM_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline constexpr std::size_t checksum_bytes = 8;
+
+[[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size) noexcept {
+  std::uint64_t hash = 0xCBF29CE484222325u;
+  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001B3u;
+  return hash;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_CHECKSUM_HPP
+
+// shortshot/recognition/hypothesis.hpp: what recognizers are told, and what they say.
+#ifndef SHORTSHOT_RECOGNITION_HYPOTHESIS_HPP
+#define SHORTSHOT_RECOGNITION_HYPOTHESIS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+struct RecognizerOptions {
+  float bandwidth = 0.03f;      ///< h of the density of votes, 1e-6 to 1e6 meters: about how far votes miss the center
+  std::uint32_t neighbors = 1;  ///< nearest codewords that each descriptor activates, 1 to 1024
+  std::uint32_t most = 8;       ///< hypotheses at the most, from 1 on
+};
+
+/// An object that may be there; see Recognizer::class_name() and instance_name() for the numbers. Trivial type.
+struct Hypothesis {
+  std::uint32_t object_class;
+  std::uint32_t instance;
+  Point center;  ///< where that of the training views is in this view
+  float score;   ///< density of the class' votes there: 1 for each that hits it, exp(-d^2 / (2 h^2)) if d meters off
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// ok or bad_option.
+[[nodiscard]] inline Status validate(const RecognizerOptions& options) noexcept {
+  const bool usable = options.bandwidth >= 1e-6f && options.bandwidth <= 1e6f && options.neighbors >= 1 &&
+                      options.neighbors <= 1024 && options.most >= 1;
+  return usable ? Status::ok : Status::bad_option;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Does one of these say the same: the class, within the bandwidth of the place?
+[[nodiscard]] inline bool is_known(const Hypothesis* known, std::size_t count, std::uint32_t object_class,
+                                   const Point& at, float bandwidth) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool same_class = known[i].object_class == object_class;
+    if (same_class && squared_distance(known[i].center, at) <= unfused(bandwidth * bandwidth)) return true;
+  }
+  return false;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_HYPOTHESIS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline constexpr char flash_model_magic[] = "SSHOTFLA";
+inline constexpr std::uint32_t flash_model_version = 1;
+
+[[nodiscard]] inline std::uint32_t number16(const std::uint8_t* bytes) noexcept {
+  return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
+}
+[[nodiscard]] inline std::uint32_t number32(const std::uint8_t* bytes) noexcept {
+  return number16(bytes) | number16(bytes + 2) << 16;
+}
+[[nodiscard]] inline std::uint64_t number64(const std::uint8_t* bytes) noexcept {
+  return number32(bytes) | static_cast<std::uint64_t>(number32(bytes + 4)) << 32;
+}
+
+/// Where the parts of a model begin, by how many there are of each. Numbers of 64 bits: sums of products of what may be
+/// damaged fit.
+struct FlashLayout {
+  static constexpr std::uint64_t header = 60;
+  static constexpr std::uint64_t codeword = 8;
+
+  std::uint64_t codewords;
+  std::uint64_t rows;
+  std::uint64_t text;
+  std::uint64_t checksum;
+
+  [[nodiscard]] static constexpr std::uint64_t whole(std::uint64_t bytes) noexcept { return (bytes + 3) / 4 * 4; }
+
+  constexpr FlashLayout(std::uint32_t row_bytes, std::uint32_t codeword_count, std::uint32_t instance_count,
+                        std::uint32_t text_bytes) noexcept
+      : codewords(header + whole(2 * std::uint64_t{instance_count})),
+        rows(codewords + codeword * codeword_count),
+        text(rows + std::uint64_t{row_bytes} * codeword_count),
+        checksum(whole(text + text_bytes)) {}
+};
+
+/// A model of any storage. Validated once, in open(): a look at each byte, and at each codeword, instance and name.
+class FlashModel {
+ public:
+  /// Statuses: not_a_model, other_version, damaged_model. What was open before stays so if it is not ok.
+  [[nodiscard]] Status open(const std::uint8_t* bytes, std::size_t size_bytes) noexcept {
+    if (bytes == nullptr || size_bytes < 8) return Status::not_a_model;
+    for (std::size_t i = 0; i < 8; ++i) {
+      if (bytes[i] != static_cast<std::uint8_t>(flash_model_magic[i])) return Status::not_a_model;
+    }
+    if (size_bytes < 12) return Status::damaged_model;
+    if (number32(bytes + 8) != flash_model_version) return Status::other_version;
+    FlashModel model;
+    if (!model.read_header(bytes, size_bytes) || !model.is_sound()) return Status::damaged_model;
+    *this = model;
+    return Status::ok;
+  }
+
+  [[nodiscard]] std::uint64_t storage() const noexcept { return storage_; }
+  [[nodiscard]] const RecognizerOptions& options() const noexcept { return options_; }
+  [[nodiscard]] std::uint32_t row_bytes() const noexcept { return row_bytes_; }
+  [[nodiscard]] std::uint32_t codeword_count() const noexcept { return codewords_; }
+  [[nodiscard]] std::uint32_t instance_count() const noexcept { return instances_; }
+  [[nodiscard]] std::uint32_t class_count() const noexcept { return classes_; }
+  [[nodiscard]] std::uint32_t class_of(std::uint32_t instance) const noexcept {
+    return number16(bytes_ + FlashLayout::header + 2 * std::size_t{instance});
+  }
+  [[nodiscard]] std::uint32_t instance_of(std::uint32_t codeword) const noexcept { return number16(at(codeword)); }
+  [[nodiscard]] Point center_of(std::uint32_t codeword) const noexcept {
+    const auto coordinate = [&](std::uint32_t offset) {
+      return static_cast<float>(static_cast<std::int16_t>(number16(at(codeword) + offset))) * unit_;
+    };
+    return {coordinate(2), coordinate(4), coordinate(6)};
+  }
+  [[nodiscard]] const std::uint8_t* row(std::uint32_t codeword) const noexcept {
+    return bytes_ + rows_ + std::size_t{row_bytes_} * codeword;
+  }
+  /// 0 is the layout, then come the classes and the instances.
+  [[nodiscard]] const char* text(std::uint32_t number) const noexcept {
+    const char* place = reinterpret_cast<const char*>(bytes_ + text_);
+    while (number > 0) number -= *place++ == 0 ? 1u : 0u;
+    return place;
+  }
+
+ private:
+  [[nodiscard]] const std::uint8_t* at(std::uint32_t codeword) const noexcept {
+    return bytes_ + codewords_begin_ + FlashLayout::codeword * codeword;
+  }
+
+  [[nodiscard]] bool read_header(const std::uint8_t* bytes, std::size_t size_bytes) noexcept {
+    if (size_bytes < FlashLayout::header + checksum_bytes || number32(bytes + 12) != size_bytes) return false;
+    bytes_ = bytes;
+    storage_ = number64(bytes + 16);
+    options_ = {math::float_of(number32(bytes + 24)), number32(bytes + 28), number32(bytes + 32)};
+    row_bytes_ = number32(bytes + 36);
+    codewords_ = number32(bytes + 40);
+    instances_ = number32(bytes + 44);
+    classes_ = number32(bytes + 48);
+    text_bytes_ = number32(bytes + 52);
+    unit_ = math::float_of(number32(bytes + 56));
+    const FlashLayout layout(row_bytes_, codewords_, instances_, text_bytes_);
+    if (layout.checksum + checksum_bytes != size_bytes) return false;
+    codewords_begin_ = static_cast<std::size_t>(layout.codewords);
+    rows_ = static_cast<std::size_t>(layout.rows);
+    text_ = static_cast<std::size_t>(layout.text);
+    const auto checked = static_cast<std::size_t>(layout.checksum);
+    return checksum(bytes, checked) == number64(bytes + checked);
+  }
+
+  /// A checksum may be right by chance, or by design: nothing that is read later may be wrong.
+  [[nodiscard]] bool is_sound() const noexcept {
+    bool sound = validate(options_) == Status::ok && row_bytes_ > 0 && row_bytes_ <= 66051 && codewords_ > 0 &&
+                 instances_ <= 65536 && classes_ <= 65536 && unit_ >= 1e-30f && unit_ <= 1e30f;
+    for (std::uint32_t i = 0; sound && i < instances_; ++i) sound = class_of(i) < classes_;
+    for (std::uint32_t i = 0; sound && i < codewords_; ++i) sound = instance_of(i) < instances_;
+    std::uint32_t texts = 0;
+    for (std::uint32_t i = 0; i < text_bytes_; ++i) texts += bytes_[text_ + i] == 0 ? 1u : 0u;
+    return sound && texts == 1 + classes_ + instances_ && bytes_[text_ + text_bytes_ - 1] == 0;
+  }
+
+  const std::uint8_t* bytes_ = nullptr;
+  std::uint64_t storage_ = 0;
+  RecognizerOptions options_{0.0f, 0, 0};
+  float unit_ = 0.0f;
+  std::uint32_t row_bytes_ = 0;
+  std::uint32_t codewords_ = 0;
+  std::uint32_t instances_ = 0;
+  std::uint32_t classes_ = 0;
+  std::uint32_t text_bytes_ = 0;
+  std::size_t codewords_begin_ = 0;
+  std::size_t rows_ = 0;
+  std::size_t text_ = 0;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// A recognizer's model of descriptors in a storage (CodedDescriptor, BinaryDescriptor or SumBits), in memory that is
+/// only read and must outlive the view. Nothing is copied, nothing allocated; reentrant.
+///
+///     ModelView<NibbleDescriptor<ShapeColor95>> model;
+///     if (model.open(cups_model, sizeof cups_model) != Status::ok) ...
+///     model.instance_name(3);
+template <class Stored>
+class ModelView {
+ public:
+  /// What save_for_flash() has written. Takes a look at each byte (some 10 instructions each on a Cortex-M), whatever
+  /// they say. Statuses, the first one that applies: not_a_model, other_version, damaged_model, other_descriptor. A
+  /// model that was open before stays so.
+  [[nodiscard]] Status open(const std::uint8_t* bytes, std::size_t size_bytes) noexcept {
+    detail::FlashModel opened;
+    const Status status = opened.open(bytes, size_bytes);
+    if (status != Status::ok) return status;
+    const bool alike = opened.storage() == detail::storage_number<Stored> && opened.row_bytes() == sizeof(Stored);
+    if (!alike) return Status::other_descriptor;
+    model_ = opened;
+    return Status::ok;
+  }
+
+  /// As it was trained; all zeros, and no codewords, before a model is open.
+  [[nodiscard]] const RecognizerOptions& options() const noexcept { return model_.options(); }
+  [[nodiscard]] std::uint32_t codeword_count() const noexcept { return model_.codeword_count(); }
+  [[nodiscard]] std::uint32_t instance_count() const noexcept { return model_.instance_count(); }
+  [[nodiscard]] std::uint32_t class_count() const noexcept { return model_.class_count(); }
+  /// For numbers below the counts. Names are looked for from the first one on.
+  [[nodiscard]] std::uint32_t class_of(std::uint32_t instance) const noexcept { return model_.class_of(instance); }
+  [[nodiscard]] const char* class_name(std::uint32_t object_class) const noexcept {
+    return model_.text(1 + object_class);
+  }
+  [[nodiscard]] const char* instance_name(std::uint32_t instance) const noexcept {
+    return model_.text(1 + class_count() + instance);
+  }
+  [[nodiscard]] std::uint32_t instance_of(std::uint32_t codeword) const noexcept {
+    return model_.instance_of(codeword);
+  }
+  /// The object's center in the frame of the codeword's key point.
+  [[nodiscard]] Point center_of(std::uint32_t codeword) const noexcept { return model_.center_of(codeword); }
+  [[nodiscard]] const Stored& descriptor(std::uint32_t codeword) const noexcept {
+    static_assert(alignof(Stored) == 1, "ModelView<Stored> supports storages of bytes");
+    return *reinterpret_cast<const Stored*>(model_.row(codeword));
+  }
+
+ private:
+  detail::FlashModel model_;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_RECOGNITION_FLASH_MODEL_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Votes for a class are those in [begin, end) of all.
+struct VotesOfClass {
+  std::size_t begin;
+  std::size_t end;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// Recognizes objects as recognize() does, with memory whose size is known before the program runs: sizeof this. The
+/// hypotheses are those of recognize() with the recognizer that load_from_flash() makes of the model, bit for bit, for
+/// the same key points in the same order.
+///
+///     static MicroRecognizer<NibbleDescriptor<ShapeColor95>, 128> recognizer;
+///     recognizer.start(model);
+///     for (each key point) recognizer.add(cloud, search, key point, 0.04f);
+///     Hypothesis found[4];
+///     const std::size_t count = recognizer.finish(found);
+///
+/// `Stored`        what the model is of: codes or bits of a descriptor that has a local reference frame
+/// `MaxKeypoints`  of a view that count, at the most
+/// `MaxNeighbors`  of a key point, as of a Workspace; 20 bytes each
+/// `MaxActivated`  codewords that a descriptor activates at the most: RecognizerOptions::neighbors of the model
+///
+/// 48 bytes for each key point and activated codeword. No allocation; reentrant, one for each thread.
+///
+/// Time: add() is that of describe_at() and of a comparison with each codeword (some instructions for each of its
+/// bytes). finish() is less than 100 steps of mean shift for each vote, where each step looks at each vote of its
+/// class: at the most 100 V^2 looks for V votes, in practice some ten; and V^2 for each hypothesis.
+template <class Stored, std::size_t MaxKeypoints, std::size_t MaxNeighbors = 512, std::size_t MaxActivated = 1>
+class MicroRecognizer {
+  using D = typename detail::Storage<Stored>::Descriptor;
+  static_assert(D::needs_frame, "MicroRecognizer<Stored, ...> supports descriptors in a local reference frame");
+  static_assert(MaxKeypoints >= 1 && MaxKeypoints <= 65536 && MaxActivated >= 1 && MaxActivated <= 1024,
+                "MicroRecognizer<Stored, MaxKeypoints, MaxNeighbors, MaxActivated> supports 1 to 65536 key points and "
+                "1 to 1024 codewords for each");
+
+ public:
+  static constexpr std::size_t max_votes = MaxKeypoints * MaxActivated;
+
+  /// All zeros: static ones take no flash and no code.
+  constexpr MicroRecognizer() noexcept = default;
+
+  /// Begins a view, with a model, which is copied (its bytes are not).
+  void start(const ModelView<Stored>& model) noexcept {
+    model_ = model;
+    votes_count_ = 0;
+  }
+
+  /// Describes a key point, by index or as a KeyPoint, and casts its votes; `own` as for describe_at().
+  ///
+  /// Statuses, the first one that applies: not_trained (not started, or no model is open), bad_option (a descriptor
+  /// activates more than MaxActivated codewords), out_of_memory (MaxKeypoints have voted), and those of describe_at().
+  /// The key point has no vote then, as one that is left out of recognize().
+  template <class Search, class Place = KeyPoint, class... Own>
+  [[nodiscard]] Status add(const CloudView& cloud, const Search& search, const Place& place, const Support& support,
+                           const Own&... own) noexcept {
+    const Status status = ready();
+    if (status != Status::ok) return status;
+    Frame frame;
+    Point position;
+    const Status described = detail::describe_key<D>(
+        cloud, search, place, support, workspace_, values_,
+        [&](const auto& n, const auto& sources, const Point& at) {
+          position = at;
+          return detail::describe_gathered<D, default_chunk_size>(n, sources, at, support, frame, values_);
+        },
+        own...);
+    if (described != Status::ok) return described;
+    Stored stored;
+    detail::Storage<Stored>::make(values_, stored);
+    vote(stored, position, frame);
+    return Status::ok;
+  }
+
+  /// The same for what was described elsewhere. Also invalid_keypoint and bad_frame.
+  [[nodiscard]] Status add(const Stored& stored, const Point& position, const Frame& frame) noexcept {
+    Status status = ready();
+    if (status == Status::ok && !is_finite(position)) status = Status::invalid_keypoint;
+    if (status == Status::ok) status = validate(frame);
+    if (status == Status::ok) vote(stored, position, frame);
+    return status;
+  }
+
+  /// The densest places of all votes so far, at most `Most` and RecognizerOptions::most of the model; returns how many.
+  /// See recognize(). More key points may follow.
+  template <std::size_t Most>
+  std::size_t finish(Hypothesis (&out)[Most]) noexcept {
+    const std::size_t most = model_.options().most < Most ? model_.options().most : Most;
+    const detail::VoteDensity density(model_.options().bandwidth);
+    climb_from_all(density);
+    std::size_t count = 0;
+    while (count < most) {
+      const std::size_t densest = densest_unknown(out, count);
+      if (densest == votes_count_) break;
+      const detail::Peak& peak = peaks_[densest];
+      const std::uint32_t instance = heaviest_instance(density, votes_of_class_at(densest), peak.at);
+      out[count++] = {votes_[densest].object_class, instance, peak.at, peak.density};
+    }
+    return count;
+  }
+
+ private:
+  struct Activated {
+    std::uint32_t codeword;
+    std::uint32_t distance;
+  };
+
+  [[nodiscard]] Status ready() const noexcept {
+    if (model_.codeword_count() == 0) return Status::not_trained;
+    if (model_.options().neighbors > MaxActivated) return Status::bad_option;
+    return votes_count_ + model_.options().neighbors > max_votes ? Status::out_of_memory : Status::ok;
+  }
+
+  /// One vote for each of the codewords that are nearest.
+  void vote(const Stored& stored, const Point& position, const Frame& frame) noexcept {
+    Activated nearest[MaxActivated];
+    const std::size_t count = find_nearest(stored, nearest);
+    for (std::size_t i = 0; i < count; ++i) {
+      const Point center = detail::from_local(model_.center_of(nearest[i].codeword), position, frame);
+      const std::uint32_t instance = model_.instance_of(nearest[i].codeword);
+      if (is_finite(center)) insert({center, model_.class_of(instance), instance});
+    }
+  }
+
+  /// Nearest first, the first ones of those that are as near; returns how many count.
+  std::size_t find_nearest(const Stored& stored, Activated (&nearest)[MaxActivated]) const noexcept {
+    for (Activated& none : nearest) none = {0, 0xFFFFFFFFu};
+    for (std::uint32_t codeword = 0; codeword < model_.codeword_count(); ++codeword) {
+      Activated next{codeword, detail::Storage<Stored>::distance(stored, model_.descriptor(codeword))};
+      if (!(next.distance < nearest[MaxActivated - 1].distance)) continue;
+      bool is_nearer = false;  // and then all that come later make room
+      for (Activated& known : nearest) {
+        is_nearer = is_nearer || next.distance < known.distance;
+        if (is_nearer) std::swap(next, known);
+      }
+    }
+    const std::uint32_t most = model_.options().neighbors;
+    return most < model_.codeword_count() ? most : model_.codeword_count();
+  }
+
+  /// Behind all votes for its class and those before it.
+  void insert(const detail::Vote& vote) noexcept {
+    std::size_t place = votes_count_++;
+    for (; place > 0 && vote.object_class < votes_[place - 1].object_class; --place) votes_[place] = votes_[place - 1];
+    votes_[place] = vote;
+  }
+
+  [[nodiscard]] detail::VotesOfClass votes_of_class_at(std::size_t vote) const noexcept {
+    detail::VotesOfClass of_class{vote, vote + 1};
+    const std::uint32_t object_class = votes_[vote].object_class;
+    while (of_class.begin > 0 && votes_[of_class.begin - 1].object_class == object_class) --of_class.begin;
+    while (of_class.end < votes_count_ && votes_[of_class.end].object_class == object_class) ++of_class.end;
+    return of_class;
+  }
+
+  void climb_from_all(const detail::VoteDensity& density) noexcept {
+    for (std::size_t begin = 0; begin < votes_count_;) {
+      const detail::VotesOfClass of_class = votes_of_class_at(begin);
+      const detail::VoteCenters centers = centers_of(of_class);
+      for (; begin < of_class.end; ++begin) {
+        peaks_[begin] = detail::climb(density, votes_[begin].center, [&](const Point&) { return centers; });
+      }
+    }
+  }
+
+  [[nodiscard]] detail::VoteCenters centers_of(const detail::VotesOfClass& of_class) noexcept {
+    const std::size_t count = of_class.end - of_class.begin;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Point& center = votes_[of_class.begin + i].center;
+      x_[i] = center.x;
+      y_[i] = center.y;
+      z_[i] = center.z;
+    }
+    detail::pad(x_, y_, z_, count);
+    return {x_, y_, z_, detail::padded(count)};
+  }
+
+  /// The densest peak, the first one of those that are as dense, that is no hypothesis yet; votes_count_ if there is
+  /// none.
+  [[nodiscard]] std::size_t densest_unknown(const Hypothesis* known, std::size_t count) const noexcept {
+    std::size_t densest = votes_count_;
+    for (std::size_t i = 0; i < votes_count_; ++i) {
+      if (densest < votes_count_ && !(peaks_[i].density > peaks_[densest].density)) continue;
+      const bool is_known =
+          detail::is_known(known, count, votes_[i].object_class, peaks_[i].at, model_.options().bandwidth);
+      if (!is_known) densest = i;
+    }
+    return densest;
+  }
+
+  /// The instance whose votes have the largest sum of weights at a place, the first trained one of those.
+  [[nodiscard]] std::uint32_t heaviest_instance(const detail::VoteDensity& density,
+                                                const detail::VotesOfClass& of_class, const Point& at) noexcept {
+    float* const weights = x_;  // the votes' columns are not needed any more
+    for (std::size_t i = of_class.begin; i < of_class.end; ++i) {
+      weights[i - of_class.begin] = density.weight(votes_[i], at);
+    }
+    std::uint32_t heaviest = votes_[of_class.begin].instance;
+    float largest = -1.0f;
+    for (std::size_t i = of_class.begin; i < of_class.end; ++i) {
+      const std::uint32_t instance = votes_[i].instance;
+      float sum = 0.0f;
+      for (std::size_t k = of_class.begin; k < of_class.end; ++k) {
+        if (votes_[k].instance == instance) sum += weights[k - of_class.begin];
+      }
+      if (sum > largest || (sum == largest && instance < heaviest)) {
+        largest = sum;
+        heaviest = instance;
+      }
+    }
+    return heaviest;
+  }
+
+  static constexpr std::size_t columns = max_votes + extend::simd::lanes;
+
+  ModelView<Stored> model_;
+  std::size_t votes_count_ = 0;
+  detail::Vote votes_[max_votes] = {};  // by class, those of a class in the order in which they were cast
+  detail::Peak peaks_[max_votes] = {};
+  float x_[columns] = {};
+  float y_[columns] = {};
+  float z_[columns] = {};
+  float values_[D::size] = {};
+  Workspace<MaxNeighbors> workspace_ = {};
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_RECOGNITION_MICRO_RECOGNIZER_HPP
+
 // shortshot/search/brute.hpp: neighbors by looking at every point. No index, no memory: the reference, and the choice
 // for a handful of key points in a small cloud.
 #ifndef SHORTSHOT_SEARCH_BRUTE_HPP
@@ -8653,759 +10365,6 @@ inline namespace SHORTSHOT_CODE {
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_SELF_CHECK_HPP
-
-// shortshot/store/binary.hpp: B-SHOT: one bit for each value of a descriptor, and the distance between such bits.
-//
-// After S. M. Prakhya, B. Liu, W. Lin: B-SHOT: A binary feature descriptor for fast and efficient keypoint matching on
-// 3D point clouds (IROS 2015): the values are taken in groups of four, and the bits of a group say which few of its
-// values make up more than 90 % of their sum.
-#ifndef SHORTSHOT_STORE_BINARY_HPP
-#define SHORTSHOT_STORE_BINARY_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// A descriptor D of D::size values as as many bits: bit j is bit j % 8 of byte j / 8, the bits behind the last one are
-/// zero. A trivial type of alignment 1: 44 bytes for SHOT-352. `Group` values (2 to 8; 4 in the paper) are looked at
-/// together.
-template <class D, int Group = 4>
-struct BinaryDescriptor {
-  static_assert(Group >= 2 && Group <= 8, "BinaryDescriptor<D, Group> supports groups of 2 to 8 values");
-  static constexpr int bits = D::size;
-  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(bits) + 7) / 8;
-  std::uint8_t bytes[size_bytes];
-};
-
-}  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// All subsets of a group, the one that B-SHOT prefers last: the whole group, then those that are tried, from the last
-/// one to the first, then the empty one. Bit i of a subset stands for value i.
-///
-/// Fewer values are tried first. Of as many values, the subsets that rotating the group turns into each other follow
-/// each other, in the order of the smallest number among them: the smaller it is, the closer together are the values.
-/// That one is the first of them, and each rotation by one place the next.
-///
-/// For four values this is the order that B-SHOT's authors published, but for {1, 3}, which they try before {0, 2}: of
-/// values that are not negative, two disjoint subsets never both have more than 90 %.
-template <int Group>
-struct Subsets {
-  static constexpr int count = 1 << Group;
-  static constexpr unsigned whole = (1u << Group) - 1u;
-  std::uint8_t of[static_cast<std::size_t>(count)];
-
-  constexpr Subsets() noexcept : of{} {
-    int place = count - 1;  // of the empty one
-    for (int values = 1; values <= Group; ++values) {
-      for (unsigned smallest = 1; smallest <= whole; ++smallest) {
-        if (values_of(smallest) != values || !is_smallest(smallest)) continue;
-        unsigned subset = smallest;
-        do {
-          of[--place] = static_cast<std::uint8_t>(subset);
-          subset = rotated(subset);
-        } while (subset != smallest);
-      }
-    }
-  }
-
-  /// How many subsets have more than `values` values: the place of the last one tried of those with as many.
-  static constexpr int larger_than(int values) noexcept {
-    int larger = 0;
-    for (unsigned subset = 1; subset <= whole; ++subset) larger += values_of(subset) > values ? 1 : 0;
-    return larger;
-  }
-  static constexpr unsigned rotated(unsigned subset) noexcept { return (subset << 1 | subset >> (Group - 1)) & whole; }
-  static constexpr int values_of(unsigned subset) noexcept {
-    int values = 0;
-    for (; subset != 0; subset &= subset - 1) ++values;
-    return values;
-  }
-  static constexpr bool is_smallest(unsigned subset) noexcept {
-    unsigned other = rotated(subset);
-    while (other > subset) other = rotated(other);
-    return other == subset;
-  }
-};
-template <int Group>
-inline constexpr Subsets<Group> subsets{};
-
-/// Sum of a subset of `values`, the first two first.
-template <unsigned Subset>
-[[nodiscard, gnu::always_inline]] inline simd::F32 sum_of(const simd::F32* values) noexcept {
-  constexpr int last = [] {
-    int i = 0;
-    while (Subset >> i > 1u) ++i;
-    return i;
-  }();
-  constexpr unsigned others = Subset - (1u << last);
-  if constexpr (others == 0) {
-    return values[last];
-  } else {
-    return sum_of<others>(values) + values[last];
-  }
-}
-
-/// The largest float that is not above 0.9 * sum, for sums from 0: a float is above the one if it is above the other.
-/// (The authors compare with that product in double, whose own rounding never moves it to or across a float.)
-/// The float product is this number or the next one, because 0.9f is less than half a unit of the product too small. It
-/// is the next one if ten times the rest is below the sum. Neither difference is rounded: no term is more than twice
-/// the other, or all are subnormal.
-[[nodiscard]] inline simd::F32 nine_tenths(simd::F32 sum) noexcept {
-  const simd::F32 product = sum * simd::all(0.9f);
-  const simd::F32 rest = sum - product;
-  const simd::Mask above = sum - rest * simd::all(8.0f) > rest + rest;
-  return simd::from_bits(simd::bits_of(product) - simd::keep(above, simd::all_int(1)));
-}
-
-/// Where `found` is 0, the place in subsets<Group>.of of the subset of `Values` values or more that is tried first of
-/// those with a sum above the limit; else `found`. Most groups of SHOT are zero or have one large value: no more is
-/// tried than some lane needs.
-template <int Group, int Values>
-[[nodiscard, gnu::always_inline]] inline simd::I32 find_subsets(const simd::F32* v, simd::F32 limit,
-                                                                simd::I32 found) noexcept {
-  if constexpr (Values == Group) {
-    return found;
-  } else {
-    constexpr int first = Subsets<Group>::larger_than(Values);
-    unroll<Subsets<Group>::larger_than(Values - 1) - first>([&](auto k) {
-      constexpr int place = first + k;
-      const simd::Mask enough = sum_of<subsets<Group>.of[place]>(v) > limit;
-      found = simd::small_max(found, simd::keep(enough, simd::all_int(place)));
-    });
-    return any(found == simd::all_int(0)) ? find_subsets<Group, Values + 1>(v, limit, found) : found;
-  }
-}
-
-/// The places in subsets<Group>.of of as many groups as there are lanes, one group after the other from `values` on.
-template <int Group>
-[[gnu::always_inline]] inline void find_subsets(const float* values, std::int32_t* places) noexcept {
-  constexpr auto stride = static_cast<std::size_t>(Group);
-  simd::F32 v[static_cast<std::size_t>(Group)];
-  unroll<Group>([&](auto i) { v[i] = simd::from_lanes([&](std::size_t k) { return values[k * stride + i]; }); });
-  const simd::F32 sum = sum_of<Subsets<Group>::whole>(v);
-  const simd::I32 empty = simd::drop(sum != simd::all(0.0f), simd::all_int(Subsets<Group>::count - 1));
-  simd::store(places, find_subsets<Group, 1>(v, nine_tenths(sum), empty));
-}
-
-/// The bits of eight groups: as many bytes as a group has values.
-template <int Group>
-inline void binarize_groups(const float* values, std::uint8_t* bytes) noexcept {
-  std::int32_t places[8];
-  for (std::size_t group = 0; group < 8; group += simd::lanes) {
-    find_subsets<Group>(values + group * static_cast<std::size_t>(Group), places + group);
-  }
-  unroll<Group>([&](auto byte) {
-    unsigned bits = 0;
-    unroll<8>([&](auto group) {
-      constexpr int shift = group * Group - byte * 8;
-      if constexpr (shift > -Group && shift < 8) {
-        const unsigned subset = subsets<Group>.of[places[group]];
-        bits |= shift < 0 ? subset >> -shift : subset << shift;
-      }
-    });
-    bytes[byte] = static_cast<std::uint8_t>(bits & 0xFFu);
-  });
-}
-
-/// Ones in a word. __builtin_popcount is a call to the compiler's library where the CPU has no instruction for it.
-[[nodiscard, gnu::always_inline]] inline int count_ones(std::size_t word) noexcept {
-#if defined(__POPCNT__) || defined(__aarch64__)
-  return __builtin_popcountll(word);
-#else
-  constexpr std::size_t every = ~std::size_t{0};
-  word -= word >> 1 & every / 3;                                             // counts of two bits each,
-  word = (word & every / 5) + (word >> 2 & every / 5);                       // of four,
-  word = (word + (word >> 4)) & every / 17;                                  // of eight;
-  return static_cast<int>(word * (every / 255) >> (8 * (sizeof word - 1)));  // and their sum
-#endif
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// The B-SHOT of D::size descriptor values (not negative, of any scale: only ratios count). In each group of `Group`
-/// consecutive values, with S their sum: no bits if all are zero; else the bits of the first subset, in the order of
-/// detail::Subsets (single values, then pairs, ...), whose sum is more than 0.9 S; all bits if there is none, which
-/// includes a group with a NaN. If D::size is no multiple of Group, the last group is filled up with zeros, which have
-/// no bits in `out`.
-///
-/// The sums are added from left to right in single precision, and the comparisons decide as the authors' in double do:
-/// with Group = 4 the bits are theirs. No allocation, no error, reentrant.
-template <class D, int Group = 4>
-void binarize(const float* values, BinaryDescriptor<D, Group>& out) noexcept {
-  constexpr std::size_t bytes = Group;  // of eight groups
-  constexpr std::size_t size = D::size;
-  constexpr std::size_t rest = size % (8 * bytes);
-  std::uint8_t* to = out.bytes;
-  for (std::size_t i = 0; i < size - rest; i += 8 * bytes, to += bytes) detail::binarize_groups<Group>(values + i, to);
-  if constexpr (rest != 0) {
-    float last_values[8 * bytes] = {};
-    std::uint8_t last_bytes[bytes];
-    std::memcpy(last_values, values + size - rest, rest * sizeof(float));
-    detail::binarize_groups<Group>(last_values, last_bytes);
-    if constexpr (rest % 8 != 0) last_bytes[rest / 8] &= static_cast<std::uint8_t>((1u << rest % 8) - 1u);
-    std::memcpy(to, last_bytes, (rest + 7) / 8);
-  }
-}
-
-/// Number of bits that differ (0 to 8 * size_bytes) in two arrays of `size_bytes` bytes of any alignment. No
-/// allocation, no error, reentrant. Always in line: a copy compiled with the instruction for counting ones must not
-/// serve a translation unit compiled without.
-[[nodiscard, gnu::always_inline]] inline int hamming_distance(const std::uint8_t* a, const std::uint8_t* b,
-                                                              std::size_t size_bytes) noexcept {
-  using Word = std::size_t;
-  int distance = 0;
-  const auto add = [&](std::size_t i, std::size_t length) {
-    Word of_a = 0, of_b = 0;
-    std::memcpy(&of_a, a + i, length);
-    std::memcpy(&of_b, b + i, length);
-    distance += detail::count_ones(of_a ^ of_b);
-  };
-  const std::size_t rest = size_bytes % sizeof(Word);
-  for (std::size_t i = 0; i < size_bytes - rest; i += sizeof(Word)) add(i, sizeof(Word));
-  if (rest != 0) add(size_bytes - rest, rest);
-  return distance;
-}
-
-/// Number of bits in which two binary descriptors differ, 0 to D::size.
-template <class D, int Group>
-[[nodiscard, gnu::always_inline]] inline int hamming_distance(const BinaryDescriptor<D, Group>& a,
-                                                              const BinaryDescriptor<D, Group>& b) noexcept {
-  return hamming_distance(a.bytes, b.bytes, sizeof a.bytes);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_STORE_BINARY_HPP
-
-// shortshot/store/coded.hpp: a descriptor in 8, 4 or 3 bits a value, and the distance between such.
-#ifndef SHORTSHOT_STORE_CODED_HPP
-#define SHORTSHOT_STORE_CODED_HPP
-
-// shortshot/store/code_distance.hpp: numbers of a few bits one behind the other, and the squared distance of two rows
-// of them.
-#ifndef SHORTSHOT_STORE_CODE_DISTANCE_HPP
-#define SHORTSHOT_STORE_CODE_DISTANCE_HPP
-
-// shortshot/base/simd_halves.hpp: two numbers in a register of 32 bits: the DSP instructions of Cortex-M4 and later.
-#ifndef SHORTSHOT_BASE_SIMD_HALVES_HPP
-#define SHORTSHOT_BASE_SIMD_HALVES_HPP
-
-#if defined(__ARM_FEATURE_DSP) && defined(__ARM_FEATURE_SIMD32) && (defined(__clang__) || __GNUC__ >= 10)
-#define SHORTSHOT_HAS_HALVES
-#include <arm_acle.h>
-#endif
-
-namespace shortshot::extend::simd {
-inline namespace SHORTSHOT_CODE {
-
-/// Is it worth a loop of its own?
-#if defined(SHORTSHOT_HAS_HALVES)
-inline constexpr bool has_halves = true;
-#else
-inline constexpr bool has_halves = false;
-#endif
-
-/// `sum` and the squared differences of the four bytes of a and b.
-[[nodiscard, gnu::always_inline]] inline std::uint32_t add_squared_differences(std::uint32_t a, std::uint32_t b,
-                                                                               std::uint32_t sum) noexcept {
-#if defined(SHORTSHOT_HAS_HALVES)
-#if defined(__clang__)
-  using Bytes = int8x4_t;  // its header says so; GCC's has the sign of the instruction
-#else
-  using Bytes = uint8x4_t;
-#endif
-  const auto halves = [](std::uint32_t v) { return static_cast<uint16x2_t>(__uxtb16(static_cast<Bytes>(v))); };
-  const auto even = static_cast<std::int32_t>(__usub16(halves(a), halves(b)));
-  const auto odd = static_cast<std::int32_t>(__usub16(halves(a >> 8), halves(b >> 8)));
-  const std::int32_t half = __smlad(even, even, static_cast<std::int32_t>(sum));  // sums wrap, as unsigned ones do
-  return static_cast<std::uint32_t>(__smlad(odd, odd, half));
-#else
-  for (int shift = 0; shift < 32; shift += 8) {
-    const auto difference = static_cast<std::int32_t>(a >> shift & 255u) - static_cast<std::int32_t>(b >> shift & 255u);
-    sum += static_cast<std::uint32_t>(difference * difference);
-  }
-  return sum;
-#endif
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::extend::simd
-#endif  // SHORTSHOT_BASE_SIMD_HALVES_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// Number `place` of those of `Bits` bits that lie one behind the other, the lowest bits first.
-template <int Bits>
-[[nodiscard, gnu::always_inline]] inline unsigned number_at(const std::uint8_t* bytes, std::size_t place) noexcept {
-  constexpr unsigned mask = (1u << Bits) - 1u;
-  const std::size_t bit = place * static_cast<std::size_t>(Bits);
-  unsigned number = static_cast<unsigned>(bytes[bit / 8]) >> bit % 8;
-  if constexpr (8 % Bits != 0) {
-    if (bit % 8 + static_cast<std::size_t>(Bits) > 8)
-      number |= static_cast<unsigned>(bytes[bit / 8 + 1]) << (8 - bit % 8);
-  }
-  return number & mask;
-}
-
-/// The sum of squared differences of the numbers in `Width` bytes, in a form that compilers turn into lanes at -O2,
-/// too.
-template <int Bits, std::size_t Width>
-[[nodiscard, gnu::always_inline]] inline std::uint32_t squared_piece_distance(const std::uint8_t* a,
-                                                                              const std::uint8_t* b) noexcept {
-  std::int32_t sum = 0;
-  if constexpr (Bits == 3) {
-    for (std::size_t k = 0; k < Width * 8 / 3; ++k) {
-      const int difference = static_cast<int>(number_at<3>(a, k)) - static_cast<int>(number_at<3>(b, k));
-      sum += difference * difference;
-    }
-  } else {
-    constexpr unsigned mask = (1u << Bits) - 1u;
-    for (std::size_t k = 0; k < Width; ++k) {
-      const auto low = static_cast<std::int16_t>((a[k] & mask) - (b[k] & mask));
-      sum += low * low;
-    }
-    for (std::size_t k = 0; Bits == 4 && k < Width; ++k) {
-      const auto high = static_cast<std::int16_t>((a[k] >> 4) - (b[k] >> 4));
-      sum += high * high;
-    }
-  }
-  return static_cast<std::uint32_t>(sum);
-}
-
-/// The sum of squared differences of the numbers of 8, 4 or 3 bits in `size` bytes; of up to 66051 numbers it fits.
-template <int Bits>
-[[nodiscard]] inline std::uint32_t squared_code_distance(const std::uint8_t* a, const std::uint8_t* b,
-                                                         std::size_t size) noexcept {
-  static_assert(Bits == 8 || Bits == 4 || Bits == 3, "whole numbers in every piece");
-  std::uint32_t sum = 0;
-  std::size_t i = 0;
-  if constexpr (simd::has_halves && Bits != 3) {
-    for (; i + 4 <= size; i += 4) {
-      std::uint32_t of_a, of_b;
-      std::memcpy(&of_a, a + i, 4);
-      std::memcpy(&of_b, b + i, 4);
-      if constexpr (Bits == 8) {
-        sum = simd::add_squared_differences(of_a, of_b, sum);
-      } else {
-        constexpr std::uint32_t low = 0x0F0F0F0Fu;
-        sum = simd::add_squared_differences(of_a & low, of_b & low, sum);
-        sum = simd::add_squared_differences(of_a >> 4 & low, of_b >> 4 & low, sum);
-      }
-    }
-  } else {
-    constexpr std::size_t width = Bits == 3 ? 3 : Bits == 4 ? 16 : 32;
-    for (; i + width <= size; i += width) sum += squared_piece_distance<Bits, width>(a + i, b + i);
-  }
-  const std::size_t whole = i * 8 / static_cast<std::size_t>(Bits);
-  for (std::size_t k = whole; k < size * 8 / static_cast<std::size_t>(Bits); ++k) {
-    const int difference = static_cast<int>(number_at<Bits>(a, k)) - static_cast<int>(number_at<Bits>(b, k));
-    sum += static_cast<std::uint32_t>(difference * difference);
-  }
-  return sum;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_STORE_CODE_DISTANCE_HPP
-
-// shortshot/store/code_scale.hpp: how fine the steps of coded descriptors are, for each descriptor.
-#ifndef SHORTSHOT_STORE_CODE_SCALE_HPP
-#define SHORTSHOT_STORE_CODE_SCALE_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// Steps in 1 for the values of D in codes of `Bits` bits. By default for the published descriptors: 512 in 8 bits; in
-/// 4 bits 32, their values are seldom above 15 / 32; in 3 bits so many that the same values are cut off as in 4 bits.
-/// Specialize it for your own, as below.
-template <class D, int Bits>
-inline constexpr int code_scale = Bits == 8 ? 512 : 32;
-template <class D>
-inline constexpr int code_scale<D, 3> = (7 * code_scale<D, 4> + 7) / 15;
-
-/// Compact descriptors in 4 bits: measured.
-template <>
-inline constexpr int code_scale<ShapeColor95, 4> = 50;
-template <>
-inline constexpr int code_scale<RoomColor95, 4> = 50;
-template <>
-inline constexpr int code_scale<ShapeColor32, 4> = 40;
-template <>
-inline constexpr int code_scale<HeightShape96, 4> = 60;
-template <>
-inline constexpr int code_scale<ColorRings27, 4> = 50;
-
-/// And in 8 bits: no value is cut off. The whole is at least sqrt(1 + 1.5^2) = 1.80 times as long as where points are,
-/// and as 1.5 for colors: values without a sign are below 1 / 1.8 = 0.56 and 0.866 / 1.5 = 0.58, those with one below
-/// 0.62 / 1.8 = 0.35 (no color is farther than 3.3 times 60 from another one), which is 127 / 360. HeightShape96 may
-/// have a 1.
-template <>
-inline constexpr int code_scale<ShapeColor95, 8> = 360;
-template <>
-inline constexpr int code_scale<RoomColor95, 8> = 360;
-template <>
-inline constexpr int code_scale<ShapeColor32, 8> = 360;
-template <>
-inline constexpr int code_scale<HeightShape96, 8> = 255;
-template <>
-inline constexpr int code_scale<ColorRings27, 8> = 360;
-
-}  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot
-#endif  // SHORTSHOT_STORE_CODE_SCALE_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// A descriptor D of D::size values, each as a whole multiple of `step`, in `Bits` bits (8, 4 or 3): from 0 to
-/// 2^Bits - 1 (255, 15, 7), or in parts whose values have signs from -m to m with m = 2^(Bits - 1) - 1 (127, 7, 3),
-/// which are stored as 1 to 2 m + 1. What lies beyond is cut off. A trivial type of alignment 1.
-///
-/// Layout: the bits of value i are those from Bits * i on, the lowest ones of a byte first; what is left over at the
-/// end is 0. So is value 2 i of 4 bits the low half of byte i.
-///
-/// Steps are 1 / `Scale`; code_scale<D, Bits> cuts off few values.
-template <class D, int Bits, int Scale = code_scale<D, Bits>>
-struct CodedDescriptor {
-  static_assert(Bits == 8 || Bits == 4 || Bits == 3, "CodedDescriptor<D, Bits> supports 8, 4 or 3 bits a value");
-  static_assert(Scale >= 1 && Scale <= 65536, "CodedDescriptor<D, Bits, Scale> supports scales from 1 to 65536");
-  static_assert(D::size >= 1 && D::size <= 66051, "CodedDescriptor<D, Bits> supports 1 to 66051 values");
-  static_assert(std::uint64_t{66051} * 255 * 255 <= 0xFFFFFFFFu, "squared_distance() cannot overflow");
-  static constexpr int size = D::size;
-  static constexpr int bits = Bits;
-  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(D::size) * Bits + 7) / 8;
-  /// The L2 distance of two descriptors is step * sqrt(squared_distance(a, b)).
-  static constexpr float step = 1.0f / static_cast<float>(Scale);
-  std::uint8_t bytes[size_bytes];
-};
-
-/// One byte a value, a quarter of its floats: 336 bytes for SCSH-336, with steps of 1/512 from 0 to 255/512.
-///
-/// A value below that comes back within half a step, 1/1024 (and 6e-11 for rounding), and so the distance of two
-/// descriptors, at the worst, within sqrt(D::size) / 512. What it costs in practice: of 12,630 key points of generated
-/// tabletop scenes, seen twice with other pixels and noise, 92 % (SSH-32) to 97 % (SCSH-696) have the same nearest
-/// neighbor in the other view as with floats; the others have one at most 1.11 times as far away, and as many of all
-/// are right. Distances to it, 0.07 to 0.18 long, are wrong by 0.001 (root mean square). Steps of 1/255, which reach 1,
-/// make that 0.0016 to 0.002; finer ones cut off too much: in SSH-32 every fifth value is above 1/4.
-///
-/// SHOT-352 and CSHOT-1344 have peaks above 1/2 (one value in 4,000 and in 200,000). Nearest neighbors are kept as
-/// well (95 % and 98 %), but the distance from a descriptor with such a peak can be too small by 0.4 and 0.2.
-///
-/// Compact descriptors have steps of 1/360, and no value is cut off.
-template <class D, int Scale = code_scale<D, 8>>
-using ByteDescriptor = CodedDescriptor<D, 8, Scale>;
-
-/// Half a byte a value, an eighth of its floats: 95 bytes for ShapeColor95.
-template <class D, int Scale = code_scale<D, 4>>
-using NibbleDescriptor = CodedDescriptor<D, 4, Scale>;
-
-}  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_TYPES {
-
-/// May value i of D be below 0?
-template <class D>
-struct SignsOf {
-  [[nodiscard, gnu::always_inline]] static constexpr bool at(int) noexcept { return false; }
-};
-template <class Voting, class... Parts>
-struct SignsOf<Descriptor<Voting, Parts...>> {
-  [[nodiscard, gnu::always_inline]] static constexpr bool at(int value) noexcept {
-    int part = 0;
-    bool has_sign = false;
-    ((has_sign = has_sign || (Parts::has_signs && value >= Descriptor<Voting, Parts...>::offset(part) &&
-                              value < Descriptor<Voting, Parts...>::offset(part) + Parts::size),
-      ++part),
-     ...);
-    return has_sign;
-  }
-};
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
-/// What is stored of a value: the nearest whole number of steps (of the product, a float), halves away from 0. NaN
-/// becomes 0 steps. Compared before it is converted.
-template <int Bits>
-[[nodiscard]] inline unsigned code_of(float value, float scale, bool has_sign) noexcept {
-  constexpr int zero = 1 << (Bits - 1);  // as it is stored where there are signs
-  const float half_steps = unfused(value * (2.0f * scale));
-  const float high = half_steps < 0.0f ? -half_steps : half_steps;
-  const int most = has_sign ? zero - 1 : 2 * zero - 1;
-  const auto limit = static_cast<float>(2 * most);
-  const int steps = high < limit ? (static_cast<std::int32_t>(high) + 1) / 2 : high >= limit ? most : 0;
-  if (!has_sign) return half_steps > 0.0f ? static_cast<unsigned>(steps) : 0u;
-  return static_cast<unsigned>(half_steps < 0.0f ? zero - steps : zero + steps);
-}
-
-/// The whole number of steps that value i is stored as.
-template <class D, int Bits, int Scale>
-[[nodiscard, gnu::always_inline]] inline int steps_at(const CodedDescriptor<D, Bits, Scale>& coded, int i) noexcept {
-  const auto stored = static_cast<int>(number_at<Bits>(coded.bytes, static_cast<std::size_t>(i)));
-  return SignsOf<D>::at(i) ? stored - (1 << (Bits - 1)) : stored;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// The D::size values of a descriptor as codes. NaN becomes 0. No allocation, no error, reentrant; the same bytes on
-/// every machine.
-///
-/// In place, too: `out` may lie where `values` begin. A byte is written when its values have been read, and lies before
-/// those that have not. A union of both needs no second buffer:
-///
-///     union { float values[D::size]; ByteDescriptor<D> bytes; } d;
-///     if (describe_at<D>(cloud, search, index, 0.04f, workspace, d.values) == Status::ok) quantize(d.values, d.bytes);
-template <class D, int Bits, int Scale>
-void quantize(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept {
-  std::uint8_t* byte = out.bytes;  // of a type that may alias the floats
-  unsigned waiting = 0;
-  int count = 0;  // of bits that wait
-  for (int i = 0; i < D::size; ++i) {
-    waiting |= detail::code_of<Bits>(values[i], static_cast<float>(Scale), detail::SignsOf<D>::at(i)) << count;
-    for (count += Bits; count >= 8 || (count > 0 && i == D::size - 1); count -= 8) {
-      *byte++ = static_cast<std::uint8_t>(waiting & 255u);
-      waiting >>= 8;
-    }
-  }
-}
-
-/// The values that codes stand for, D::size floats. No allocation, no error, reentrant; the same bits on every machine.
-template <class D, int Bits, int Scale>
-void dequantize(const CodedDescriptor<D, Bits, Scale>& coded, float* values) noexcept {
-  for (int i = 0; i < D::size; ++i) {
-    values[i] = static_cast<float>(detail::steps_at(coded, i)) * CodedDescriptor<D, Bits, Scale>::step;
-  }
-}
-
-/// The squared L2 distance in steps, exact: an integer from 0 to D::size * (2^Bits - 1)^2, for which 32 bits are
-/// enough. The order of distances needs no root.
-template <class D, int Bits, int Scale>
-[[nodiscard]] std::uint32_t squared_distance(const CodedDescriptor<D, Bits, Scale>& a,
-                                             const CodedDescriptor<D, Bits, Scale>& b) noexcept {
-  return detail::squared_code_distance<Bits>(a.bytes, b.bytes, sizeof a.bytes);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_STORE_CODED_HPP
-
-// shortshot/store/half.hpp: a descriptor in 16-bit floats, half of its floats.
-#ifndef SHORTSHOT_STORE_HALF_HPP
-#define SHORTSHOT_STORE_HALF_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// A descriptor D of D::size values as IEEE 754's binary16 (11 bits of precision: a value of a descriptor comes back
-/// within 1/4096 of itself, or 3e-8). A trivial type of alignment 2. Distances are those of the floats that they stand
-/// for.
-template <class D>
-struct HalfDescriptor {
-  static_assert(D::size >= 1 && D::size <= 66051, "HalfDescriptor<D> supports 1 to 66051 values");
-  static constexpr int size = D::size;
-  static constexpr std::size_t size_bytes = 2 * static_cast<std::size_t>(D::size);
-  std::uint16_t values[D::size];
-};
-
-}  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// The nearest half, ties to even, as IEEE 754 rounds; from 65520 on infinity. NaN stays NaN (a quiet one). In
-/// integers: neither compilers nor CPUs have a say.
-[[nodiscard]] inline std::uint16_t half_of(float value) noexcept {
-  const std::uint32_t bits = math::bits_of(value);
-  const std::uint32_t sign = bits >> 16 & 0x8000u;
-  const std::uint32_t high = bits & 0x7FFFFFFFu;
-  if (high >= 0x7F800000u) return static_cast<std::uint16_t>(sign | (high > 0x7F800000u ? 0x7E00u : 0x7C00u));
-  if (high >= 0x477FF000u) return static_cast<std::uint16_t>(sign | 0x7C00u);
-  std::uint32_t whole = high - 0x38000000u;  // the exponent's bias is 112 less
-  std::uint32_t shift = 13;
-  if (high < 0x38800000u) {  // below 2^-14: multiples of 2^-24
-    shift = 126 - (high >> 23);
-    if (shift > 25) return static_cast<std::uint16_t>(sign);
-    whole = (high & 0x7FFFFFu) | 0x800000u;
-  }
-  const std::uint32_t half_unit = (1u << (shift - 1)) - 1u + (whole >> shift & 1u);
-  return static_cast<std::uint16_t>(sign | (whole + half_unit) >> shift);
-}
-
-/// The float that a half stands for, exactly.
-[[nodiscard]] inline float float_of_half(std::uint16_t half) noexcept {
-  const std::uint32_t sign = std::uint32_t{half & 0x8000u} << 16;
-  std::uint32_t high = half & 0x7FFFu;
-  if (high >= 0x7C00u) return math::float_of(sign | 0x7F800000u | (high & 0x3FFu) << 13);
-  if (high >= 0x400u) return math::float_of(sign | ((high << 13) + 0x38000000u));
-  if (high == 0) return math::float_of(sign);
-  std::uint32_t exponent = 113;  // of 2^-14
-  for (; (high & 0x400u) == 0; high <<= 1) --exponent;
-  return math::float_of(sign | exponent << 23 | (high & 0x3FFu) << 13);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// The D::size values of a descriptor as halves, each the nearest one (ties to even). No allocation, no error,
-/// reentrant; the same bits on every machine, whatever it does with subnormal floats.
-template <class D>
-void quantize(const float* values, HalfDescriptor<D>& out) noexcept {
-  for (int i = 0; i < D::size; ++i) out.values[i] = detail::half_of(values[i]);
-}
-
-/// The floats that halves stand for.
-template <class D>
-void dequantize(const HalfDescriptor<D>& halves, float* values) noexcept {
-  for (int i = 0; i < D::size; ++i) values[i] = detail::float_of_half(halves.values[i]);
-}
-
-/// The squared L2 distance of the floats that halves stand for, summed up as squared_l2_distance() does: what matching
-/// compares.
-template <class D>
-[[nodiscard]] float squared_distance(const HalfDescriptor<D>& a, const HalfDescriptor<D>& b) noexcept {
-  float sums[8] = {};
-  for (int i = 0; i < D::size; ++i) {
-    const float difference = detail::float_of_half(a.values[i]) - detail::float_of_half(b.values[i]);
-    sums[i % 8] += extend::unfused(difference * difference);
-  }
-  return ((sums[0] + sums[4]) + (sums[2] + sums[6])) + ((sums[1] + sums[5]) + (sums[3] + sums[7]));
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_STORE_HALF_HPP
-
-// shortshot/store/sum_bits.hpp: a descriptor in bits that each say whether a sum of a few of its values is positive.
-#ifndef SHORTSHOT_STORE_SUM_BITS_HPP
-#define SHORTSHOT_STORE_SUM_BITS_HPP
-
-// shortshot/store/draws.hpp: random numbers that are the same everywhere, made while compiling.
-#ifndef SHORTSHOT_STORE_DRAWS_HPP
-#define SHORTSHOT_STORE_DRAWS_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_TYPES {
-
-/// The generator of std::mt19937 (M. Matsumoto, T. Nishimura: Mersenne Twister, ACM TOMACS 8, 1998), for constants.
-class MersenneTwister {
- public:
-  constexpr explicit MersenneTwister(std::uint32_t seed) noexcept : state_{seed} {
-    for (std::uint32_t i = 1; i < count; ++i) {
-      const std::uint32_t before = state_[i - 1];
-      state_[i] = 1812433253u * (before ^ before >> 30) + i;
-    }
-  }
-  constexpr std::uint32_t operator()() noexcept {
-    const std::size_t next = (at_ + 1) % count;
-    const std::uint32_t joined = (state_[at_] & 0x80000000u) | (state_[next] & 0x7FFFFFFFu);
-    std::uint32_t number = state_[(at_ + 397) % count] ^ joined >> 1 ^ ((joined & 1u) != 0 ? 0x9908B0DFu : 0u);
-    state_[at_] = number;
-    at_ = next;
-    number ^= number >> 11;
-    number ^= number << 7 & 0x9D2C5680u;
-    number ^= number << 15 & 0xEFC60000u;
-    return number ^ number >> 18;
-  }
-
- private:
-  static constexpr std::size_t count = 624;
-  std::uint32_t state_[count];
-  std::size_t at_ = 0;
-};
-
-/// The first numbers of mt19937 with seed 1, modulo `Size`.
-template <int Size, std::size_t Count>
-struct Draws {
-  std::uint16_t of[Count];
-  constexpr Draws() noexcept : of{} {
-    MersenneTwister next(1);
-    for (std::uint16_t& draw : of) draw = static_cast<std::uint16_t>(next() % static_cast<std::uint32_t>(Size));
-  }
-};
-template <int Size, std::size_t Count>
-inline constexpr Draws<Size, Count> draws{};
-
-}  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_STORE_DRAWS_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// A descriptor D as `Bits` signs of sparse sums: bit j is bit j % 8 of byte j / 8, and says whether the sum of `Draws`
-/// of its values in nibbles, with the signs -, +, -, +, ..., is above 0. Which values, is drawn once and for all: value
-/// g() % D::size with g an std::mt19937 with seed 1, for one bit after the other. A trivial type of alignment 1.
-///
-/// 352 bits of four draws are 44 bytes, the least that keeps most of what ShapeColor95 finds; 256 bits of six draws are
-/// 32 bytes.
-template <class D, int Bits = 352, int Draws = 4>
-struct SumBits {
-  static_assert(Bits >= 8 && Bits <= 65536 && Bits % 8 == 0, "SumBits<D, Bits> supports whole bytes: 8 to 65536 bits");
-  static_assert(Draws >= 2 && Draws <= 64, "SumBits<D, Bits, Draws> supports 2 to 64 draws for a bit");
-  static constexpr int bits = Bits;
-  static constexpr std::size_t size_bytes = static_cast<std::size_t>(Bits) / 8;
-  std::uint8_t bytes[size_bytes];
-};
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
-/// The bits of a descriptor in nibbles. The same ones on every machine: there is nothing but integers. Codes of parts
-/// with signs count as -7 to 7, the others as 0 to 15. No allocation, no error, reentrant.
-template <class D, int Scale, int Bits, int Draws>
-void binarize(const NibbleDescriptor<D, Scale>& nibbles, SumBits<D, Bits, Draws>& out) noexcept {
-  constexpr auto& draws = detail::draws<D::size, static_cast<std::size_t>(Bits) * Draws>;
-  const std::uint16_t* draw = draws.of;
-  for (std::uint8_t& byte : out.bytes) {
-    unsigned bits = 0;
-    for (int bit = 0; bit < 8; ++bit) {
-      int sum = 0;
-      for (int k = 0; k < Draws; ++k) {
-        const int steps = detail::steps_at(nibbles, *draw++);
-        sum += k % 2 == 0 ? -steps : steps;
-      }
-      if (sum > 0) bits |= 1u << bit;
-    }
-    byte = static_cast<std::uint8_t>(bits);
-  }
-}
-
-/// The same of D::size values, by way of nibbles with steps of 1 / code_scale<D, 4>.
-template <class D, int Bits, int Draws>
-void binarize(const float* values, SumBits<D, Bits, Draws>& out) noexcept {
-  NibbleDescriptor<D> nibbles;
-  quantize(values, nibbles);
-  binarize(nibbles, out);
-}
-
-/// Number of bits in which two descriptors differ, 0 to Bits.
-template <class D, int Bits, int Draws>
-[[nodiscard, gnu::always_inline]] inline int hamming_distance(const SumBits<D, Bits, Draws>& a,
-                                                              const SumBits<D, Bits, Draws>& b) noexcept {
-  return hamming_distance(a.bytes, b.bytes, sizeof a.bytes);
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_STORE_SUM_BITS_HPP
 #endif  // SHORTSHOT_KERNEL_HPP
 
 // shortshot/cloud/view_of.hpp: views of containers of structs, PCL's clouds among them, by their members' names.
@@ -10409,115 +11368,20 @@ class GridSearch {
 }  // namespace shortshot
 #endif  // SHORTSHOT_BATCH_GRID_SEARCH_HPP
 
-// shortshot/descriptor/layout_text.hpp: what the values of a descriptor mean, as text: for files, and for code that
-// knows descriptors only at run time. Hosted only: allocates.
-#ifndef SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
-#define SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
+// shortshot/descriptor/layout_of.hpp: what the values of a descriptor mean, as a string. Hosted only: allocates.
+#ifndef SHORTSHOT_DESCRIPTOR_LAYOUT_OF_HPP
+#define SHORTSHOT_DESCRIPTOR_LAYOUT_OF_HPP
 
 #include <string>
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-template <class Policy, class = void>
-struct HasName : std::false_type {};
-template <class Policy>
-struct HasName<Policy, std::void_t<decltype(std::string(Policy::name))>> : std::true_type {};
-
-// Called, not inlined: text is put together from many pieces, and a compiler would take its time for each.
-[[gnu::noinline]] inline void add(std::string& text, const char* more) { text += more; }
-[[gnu::noinline]] inline void add(std::string& text, int number) { text += std::to_string(number); }
-template <class... Pieces>
-void add_all(std::string& text, Pieces... pieces) {
-  (add(text, pieces), ...);
-}
-
-template <class Policy>
-[[nodiscard]] const char* name_of() noexcept {
-  static_assert(HasName<Policy>::value,
-                "layout_of<D>() supports policies with `static constexpr const char* name`, which must tell them from "
-                "all others");
-  return Policy::name;
-}
-
-/// What a radius scale's name leaves open.
-template <class Scale>
-struct ScaleParameters {
-  static void add_to(std::string&) {}
+struct StringText {
+  std::string string;
+  // Called, not inlined: text is put together from many pieces, and a compiler would take its time for each.
+  [[gnu::noinline]] void add(const char* piece) { string += piece; }
 };
-template <int Numerator, int Denominator>
-struct ScaleParameters<LogRadius<Numerator, Denominator>> {
-  static void add_to(std::string& text) {
-    constexpr int common = std::gcd(Numerator, Denominator);
-    add_all(text, " from ", Numerator / common, "/", Denominator / common);
-  }
-};
-
-/// What a part's finish says of itself; nothing where sums are its values.
-template <class Finish>
-struct FinishText {
-  static void add_to(std::string& text) { add_all(text, ", ", name_of<Finish>()); }
-};
-template <>
-struct FinishText<PlainSums> {
-  static void add_to(std::string&) {}
-};
-template <int PerMille>
-struct FinishText<RootOfShares<PerMille>> {
-  static void add_to(std::string& text) {
-    add_all(text, ", ", name_of<RootOfShares<PerMille>>(), ", length ", PerMille, "/1000");
-  }
-};
-template <int PerMille, int FloorPercent, int NoisePerMille>
-struct FinishText<SignedRoots<PerMille, FloorPercent, NoisePerMille>> {
-  static void add_to(std::string& text) {
-    add_all(text, ", ", name_of<SignedRoots<PerMille, FloorPercent, NoisePerMille>>(), ", length ", PerMille,
-            "/1000, floor ", FloorPercent, "/100, noise ", NoisePerMille, "/1000");
-  }
-};
-
-template <class Signal>
-void add_color(std::string& text) {
-  if constexpr (!std::is_void<typename Signal::Rule>::value) {
-    add_all(text, " (", name_of<typename Signal::Rule>());
-    if constexpr (std::is_same<typename Signal::Reference, MeanColor>::value)
-      add_all(text, " from ", name_of<MeanColor>());
-    add(text, ")");
-  }
-}
-
-template <class First, class... Others>
-void add_means(std::string& text, SignalList<First, Others...>) {
-  add_all(text, "means of ", name_of<First>());
-  (add_all(text, " & ", name_of<Others>()), ...);
-  add_color<First>(text);
-}
-
-template <class Part>
-void add_part(std::string& text) {
-  using Grid = typename Part::Grid;
-  if constexpr (Part::weight_cells > 0) {
-    add_means(text, typename Part::Averaged{});
-    add_all(text, " shrunk by ", Part::shrink_percent, "/100");
-  } else {
-    using Signal = typename Part::Signal;
-    add(text, name_of<Signal>());
-    if constexpr (Signal::has_histogram) add_all(text, " ", Signal::bins, " bins");
-    add_color<Signal>(text);
-  }
-  add_all(text, " ", Grid::radial, "x", Grid::elevation, "x", Grid::azimuth, " ", name_of<typename Part::Scale>());
-  ScaleParameters<typename Part::Scale>::add_to(text);
-  FinishText<typename Part::Finish>::add_to(text);
-}
-
-template <class Voting, class... Parts>
-[[nodiscard]] std::string layout_text(const Descriptor<Voting, Parts...>*) {
-  std::string text;
-  add_all(text, name_of<Voting>(), ", ", name_of<typename Descriptor<Voting, Parts...>::Cells>());
-  const char* separator = ": ";
-  ((add(text, separator), add_part<Parts>(text), separator = " | "), ...);
-  return text;
-}
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
@@ -10537,12 +11401,14 @@ inline namespace SHORTSHOT_CODE {
 /// needs a `name` as those of the library have, which says everything about it, parameters included. Allocates.
 template <class D>
 [[nodiscard]] std::string layout_of() {
-  return detail::layout_text(static_cast<const D*>(nullptr));
+  detail::StringText text;
+  detail::add_layout(text, static_cast<const D*>(nullptr));
+  return text.string;
 }
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
-#endif  // SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
+#endif  // SHORTSHOT_DESCRIPTOR_LAYOUT_OF_HPP
 
 // shortshot/batch/keypoints.hpp: uniform key points, one per occupied voxel. Hosted only: allocates.
 #ifndef SHORTSHOT_BATCH_KEYPOINTS_HPP
@@ -13081,23 +13947,12 @@ void to_pcl(const Features<D>& features, PclCloud& cloud) {
 //
 //     8 characters that say what it is, 4 bytes format version
 //     what is saved
-//     8 bytes checksum (64-bit FNV-1a) of all bytes before it
-//
-// FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
-// does once in 2^64 times. It is no protection from who means harm; nobody believes a number because of it.
+//     8 bytes checksum of all bytes before it
 #ifndef SHORTSHOT_STORE_BYTE_STREAM_HPP
 #define SHORTSHOT_STORE_BYTE_STREAM_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
-
-inline constexpr std::size_t checksum_bytes = 8;
-
-[[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size) noexcept {
-  std::uint64_t hash = 0xCBF29CE484222325u;
-  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001B3u;
-  return hash;
-}
 
 /// What a file is: its first characters, and the version of the format.
 struct FileKind {
@@ -13131,6 +13986,10 @@ class ByteWriter {
   void point(const Point& p) {
     const float values[3] = {p.x, p.y, p.z};
     reals(values, 3);
+  }
+  /// Zeros up to a place.
+  void pad(std::size_t place) {
+    while (bytes_.size() < place) number(std::uint8_t{0});
   }
   void name(std::string_view text) {
     count(text.size());
@@ -13583,43 +14442,6 @@ struct StoredFeatures {
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// The descriptor that a storage is of, what its rows are made of in files, how it is said, and how it is made.
-template <class Stored>
-struct Storage;
-template <class D>
-struct Storage<HalfDescriptor<D>> {
-  using Descriptor = D;
-  using Value = std::uint16_t;
-  [[nodiscard]] static std::string name() { return "halves"; }
-  static void make(const float* values, HalfDescriptor<D>& out) noexcept { quantize(values, out); }
-};
-template <class D, int Bits, int Scale>
-struct Storage<CodedDescriptor<D, Bits, Scale>> {
-  using Descriptor = D;
-  using Value = std::uint8_t;
-  [[nodiscard]] static std::string name() {
-    return "codes of " + std::to_string(Bits) + " bits, steps of 1/" + std::to_string(Scale);
-  }
-  static void make(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept { quantize(values, out); }
-};
-template <class D, int Group>
-struct Storage<BinaryDescriptor<D, Group>> {
-  using Descriptor = D;
-  using Value = std::uint8_t;
-  [[nodiscard]] static std::string name() { return "bits of groups of " + std::to_string(Group); }
-  static void make(const float* values, BinaryDescriptor<D, Group>& out) noexcept { binarize(values, out); }
-};
-template <class D, int Bits, int Draws>
-struct Storage<SumBits<D, Bits, Draws>> {
-  using Descriptor = D;
-  using Value = std::uint8_t;
-  [[nodiscard]] static std::string name() {
-    return std::to_string(Bits) + " bits of sums of " + std::to_string(Draws) + ", steps of 1/" +
-           std::to_string(code_scale<D, 4>);
-  }
-  static void make(const float* values, SumBits<D, Bits, Draws>& out) noexcept { binarize(values, out); }
-};
-
 /// Descriptors as the numbers that they are made of.
 template <class Stored>
 inline constexpr std::size_t stored_values = sizeof(Stored) / sizeof(typename Storage<Stored>::Value);
@@ -13634,7 +14456,9 @@ inline namespace SHORTSHOT_CODE {
 /// files, or two rows, must have in common. Allocates.
 template <class Stored>
 [[nodiscard]] std::string storage_layout() {
-  return layout_of<typename detail::Storage<Stored>::Descriptor>() + " in " + detail::Storage<Stored>::name();
+  detail::StringText text;
+  detail::add_storage_layout<Stored>(text);
+  return text.string;
 }
 
 /// Features in a storage. Rows whose status is not ok are of zeros. ok or bad_rows (vectors that are not as long as
@@ -13718,6 +14542,79 @@ template <class Stored>
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_STORE_STORED_FEATURES_HPP
+
+// shortshot/recognition/flash_model_file.hpp: models for flash: written, as bytes or as a C++ header, and read back.
+// Hosted only: allocates.
+#ifndef SHORTSHOT_RECOGNITION_FLASH_MODEL_FILE_HPP
+#define SHORTSHOT_RECOGNITION_FLASH_MODEL_FILE_HPP
+
+// shortshot/recognition/codebook.hpp: what a recognizer has learnt. Hosted only: allocates.
+#ifndef SHORTSHOT_RECOGNITION_CODEBOOK_HPP
+#define SHORTSHOT_RECOGNITION_CODEBOOK_HPP
+
+// shortshot/recognition/descriptor_rows.hpp: borrowed rows of descriptors, as matching and recognition take them.
+// Hosted only.
+#ifndef SHORTSHOT_RECOGNITION_DESCRIPTOR_ROWS_HPP
+#define SHORTSHOT_RECOGNITION_DESCRIPTOR_ROWS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// `count` descriptors of `size` floats each, row by row without gaps. Borrowed, like everything here.
+struct DescriptorRows {
+  const float* values;   ///< count * size
+  std::size_t count;     ///< number of rows
+  std::size_t size;      ///< floats in a row
+  const Status* status;  ///< one per row: those that are not ok are left out; null: all are ok
+};
+
+/// Descriptors with the places and frames that they were made at.
+struct FeatureRows {
+  DescriptorRows descriptors;
+  const KeyPoint* keypoints;  ///< one per row
+  const Frame* frames;        ///< one per row
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// The rows of extract()'s result; the features must outlive them.
+template <class D>
+[[nodiscard]] DescriptorRows rows_of(const Features<D>& features) noexcept {
+  return {features.values.data(), features.size(), static_cast<std::size_t>(D::size), features.status.data()};
+}
+
+/// The same with key points and frames.
+template <class D>
+[[nodiscard]] FeatureRows feature_rows_of(const Features<D>& features) noexcept {
+  const bool complete = features.keypoints.size() == features.size() && features.frames.size() == features.size();
+  return {rows_of(features), complete ? features.keypoints.data() : nullptr, features.frames.data()};
+}
+
+/// Can these rows be used: no null pointer where there are rows, and at least one value in each? ok or bad_rows.
+[[nodiscard]] inline Status validate(const DescriptorRows& rows) noexcept {
+  return rows.size > 0 && (rows.count == 0 || rows.values != nullptr) ? Status::ok : Status::bad_rows;
+}
+
+[[nodiscard]] inline Status validate(const FeatureRows& rows) noexcept {
+  const bool complete = rows.descriptors.count == 0 || (rows.keypoints != nullptr && rows.frames != nullptr);
+  return complete ? validate(rows.descriptors) : Status::bad_rows;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+template <class Rows>
+[[nodiscard]] bool is_ok(const Rows& rows, std::size_t row) noexcept {
+  return rows.status == nullptr || rows.status[row] == Status::ok;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_DESCRIPTOR_ROWS_HPP
 
 // shortshot/recognition/match.hpp: the nearest descriptors of another set, exactly; pairs that are each other's
 // nearest; and those that are nearer than all others by far. Hosted only: allocates, starts threads.
@@ -14139,70 +15036,6 @@ struct HalfBytes {
 // Packed rows have compare_packed.hpp. Of rows in any other format every pair is compared.
 #ifndef SHORTSHOT_RECOGNITION_COMPARE_ROWS_HPP
 #define SHORTSHOT_RECOGNITION_COMPARE_ROWS_HPP
-
-// shortshot/recognition/descriptor_rows.hpp: borrowed rows of descriptors, as matching and recognition take them.
-// Hosted only.
-#ifndef SHORTSHOT_RECOGNITION_DESCRIPTOR_ROWS_HPP
-#define SHORTSHOT_RECOGNITION_DESCRIPTOR_ROWS_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// `count` descriptors of `size` floats each, row by row without gaps. Borrowed, like everything here.
-struct DescriptorRows {
-  const float* values;   ///< count * size
-  std::size_t count;     ///< number of rows
-  std::size_t size;      ///< floats in a row
-  const Status* status;  ///< one per row: those that are not ok are left out; null: all are ok
-};
-
-/// Descriptors with the places and frames that they were made at.
-struct FeatureRows {
-  DescriptorRows descriptors;
-  const KeyPoint* keypoints;  ///< one per row
-  const Frame* frames;        ///< one per row
-};
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
-/// The rows of extract()'s result; the features must outlive them.
-template <class D>
-[[nodiscard]] DescriptorRows rows_of(const Features<D>& features) noexcept {
-  return {features.values.data(), features.size(), static_cast<std::size_t>(D::size), features.status.data()};
-}
-
-/// The same with key points and frames.
-template <class D>
-[[nodiscard]] FeatureRows feature_rows_of(const Features<D>& features) noexcept {
-  const bool complete = features.keypoints.size() == features.size() && features.frames.size() == features.size();
-  return {rows_of(features), complete ? features.keypoints.data() : nullptr, features.frames.data()};
-}
-
-/// Can these rows be used: no null pointer where there are rows, and at least one value in each? ok or bad_rows.
-[[nodiscard]] inline Status validate(const DescriptorRows& rows) noexcept {
-  return rows.size > 0 && (rows.count == 0 || rows.values != nullptr) ? Status::ok : Status::bad_rows;
-}
-
-[[nodiscard]] inline Status validate(const FeatureRows& rows) noexcept {
-  const bool complete = rows.descriptors.count == 0 || (rows.keypoints != nullptr && rows.frames != nullptr);
-  return complete ? validate(rows.descriptors) : Status::bad_rows;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-template <class Rows>
-[[nodiscard]] bool is_ok(const Rows& rows, std::size_t row) noexcept {
-  return rows.status == nullptr || rows.status[row] == Status::ok;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_RECOGNITION_DESCRIPTOR_ROWS_HPP
 
 // shortshot/recognition/l2_distance.hpp: the distance of two rows of floats, with the same bits on every machine.
 #ifndef SHORTSHOT_RECOGNITION_L2_DISTANCE_HPP
@@ -15441,6 +16274,406 @@ template <class Rows = DescriptorRows, class Threads = unsigned>
 }  // namespace shortshot
 #endif  // SHORTSHOT_RECOGNITION_MATCH_HPP
 
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
+
+/// Every descriptor of a training view is a codeword.
+struct Codebook {
+  struct Codeword {
+    std::uint32_t instance;
+    Point center;  // of the training view, in the key point's frame
+  };
+
+  std::string layout;
+  std::size_t row_size = 0;
+  std::vector<std::string> classes;
+  std::vector<std::string> instances;
+  std::vector<std::uint32_t> class_of;  // of each instance
+  std::vector<Codeword> codewords;
+  std::vector<float> values;         // codewords.size() * row_size, or
+  std::vector<std::uint8_t> packed;  // as many bytes, if descriptors are stored as codes or bits
+};
+
+/// Rows in any format, with places and frames: one of each a row.
+template <class Rows>
+struct PlacedRows {
+  Rows descriptors;
+  const KeyPoint* keypoints;
+  const Frame* frames;
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+[[nodiscard]] inline bool is_finite(const float* values, std::size_t count) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!math::is_finite(values[i])) return false;
+  }
+  return true;
+}
+
+/// Rows that there are, and descriptors that can be compared: all of their values are finite. ok or bad_rows.
+[[nodiscard]] inline Status check_values(const DescriptorRows& rows) noexcept {
+  Status status = validate(rows);
+  for (std::size_t row = 0; row < rows.count && status == Status::ok; ++row) {
+    if (is_ok(rows, row) && !is_finite(rows.values + row * rows.size, rows.size)) status = Status::bad_rows;
+  }
+  return status;
+}
+
+template <int Bits>
+[[nodiscard]] Status check_values(const CodedRows<Bits>& rows) noexcept {
+  return validate(rows);
+}
+[[nodiscard]] inline Status check_values(const BitRows& rows) noexcept { return validate(rows); }
+
+/// The same, with places and frames that one can cast a vote from: also invalid_keypoint and bad_frame.
+template <class Rows>
+[[nodiscard]] Status check_values(const PlacedRows<Rows>& rows) noexcept {
+  const bool is_complete = rows.descriptors.count == 0 || (rows.keypoints != nullptr && rows.frames != nullptr);
+  Status status = is_complete ? check_values(rows.descriptors) : Status::bad_rows;
+  for (std::size_t row = 0; row < rows.descriptors.count && status == Status::ok; ++row) {
+    if (!is_ok(rows.descriptors, row)) continue;
+    status = is_finite(rows.keypoints[row].position) ? validate(rows.frames[row]) : Status::invalid_keypoint;
+  }
+  return status;
+}
+
+/// The codewords as rows that can be compared with these, which are of the same layout.
+[[nodiscard]] inline DescriptorRows rows_like(const DescriptorRows&, const Codebook& codebook) noexcept {
+  return {codebook.values.data(), codebook.codewords.size(), codebook.row_size, nullptr};
+}
+template <int Bits>
+[[nodiscard]] CodedRows<Bits> rows_like(const CodedRows<Bits>& rows, const Codebook& codebook) noexcept {
+  return {codebook.packed.data(), codebook.codewords.size(), codebook.row_size, rows.step, nullptr};
+}
+[[nodiscard]] inline BitRows rows_like(const BitRows&, const Codebook& codebook) noexcept {
+  return {codebook.packed.data(), codebook.codewords.size(), codebook.row_size, nullptr};
+}
+
+/// Appends a row to what the codebook has.
+inline void append(Codebook& codebook, const DescriptorRows& rows, std::size_t row) {
+  const float* const values = rows.values + row * rows.size;
+  codebook.values.insert(codebook.values.end(), values, values + rows.size);
+}
+template <class Rows>
+void append(Codebook& codebook, const Rows& rows, std::size_t row) {
+  const std::uint8_t* const bytes = rows.bytes + row * rows.size;
+  codebook.packed.insert(codebook.packed.end(), bytes, bytes + rows.size);
+}
+
+/// Are these the descriptors that it was made of?
+[[nodiscard]] inline Status validate_queries(const Codebook& codebook, std::size_t row_size, bool are_packed,
+                                             std::string_view layout) noexcept {
+  if (codebook.codewords.empty()) return Status::not_trained;
+  const bool alike = row_size == codebook.row_size && are_packed == !codebook.packed.empty();
+  return alike && layout == codebook.layout ? Status::ok : Status::other_descriptor;
+}
+
+/// The number of a class, or of an instance; a new one if there is none of that name.
+[[nodiscard]] inline std::uint32_t class_number(Codebook& codebook, std::string_view name) {
+  const std::size_t count = codebook.classes.size();
+  std::size_t number = 0;
+  while (number < count && codebook.classes[number] != name) ++number;
+  if (number == count) codebook.classes.push_back(std::string(name));
+  return static_cast<std::uint32_t>(number);
+}
+[[nodiscard]] inline std::uint32_t instance_number(Codebook& codebook, std::uint32_t object_class,
+                                                   std::string_view name) {
+  const std::size_t count = codebook.instances.size();
+  const auto is_it = [&](std::size_t i) {
+    return codebook.class_of[i] == object_class && codebook.instances[i] == name;
+  };
+  std::size_t number = 0;
+  while (number < count && !is_it(number)) ++number;
+  if (number == count) {
+    codebook.instances.push_back(std::string(name));
+    codebook.class_of.push_back(object_class);
+  }
+  return static_cast<std::uint32_t>(number);
+}
+
+/// Adds the rows, which were validated, of an object of which `center` is the center. All or nothing.
+template <class Rows>
+[[nodiscard]] Status add(Codebook& codebook, const PlacedRows<Rows>& rows, const Point& center,
+                         std::string_view object_class, std::string_view instance) {
+  const Rows& descriptors = rows.descriptors;
+  std::vector<Point> centers(descriptors.count);
+  std::size_t added = 0;
+  for (std::size_t row = 0; row < descriptors.count; ++row) {
+    if (!is_ok(descriptors, row)) continue;
+    centers[row] = to_local(center, rows.keypoints[row].position, rows.frames[row]);
+    if (!shortshot::is_finite(centers[row])) return Status::invalid_keypoint;  // farther away than floats reach
+    ++added;
+  }
+  if (added == 0) return Status::ok;
+  if (added >= no_row - codebook.codewords.size()) return Status::bad_rows;
+
+  const std::string name(instance);  // a copy: the view may be of a name in the codebook, which a new class moves
+  const std::uint32_t number = instance_number(codebook, class_number(codebook, object_class), name);
+  for (std::size_t row = 0; row < descriptors.count; ++row) {
+    if (!is_ok(descriptors, row)) continue;
+    append(codebook, descriptors, row);
+    codebook.codewords.push_back({number, centers[row]});
+  }
+  return Status::ok;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_CODEBOOK_HPP
+
+// shortshot/recognition/recognizer.hpp: what has been learned of objects: an implicit shape model, whose descriptors
+// vote for the centers of objects. recognize.hpp trains and asks it. Hosted only.
+//
+// After B. Leibe, A. Leonardis, B. Schiele: Robust object detection with interleaved categorization and segmentation
+// (IJCV 77, 2008), with local reference frames in 3-D as in F. Tombari, L. Di Stefano: Object recognition in 3D scenes
+// with occlusions and clutter by Hough voting (PSIVT 2010).
+#ifndef SHORTSHOT_RECOGNITION_RECOGNIZER_HPP
+#define SHORTSHOT_RECOGNITION_RECOGNIZER_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
+
+struct RecognizerAccess;
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// The share that each class, and each instance, has in the codewords that were activated: 0 to 1, all of them 1
+/// together, or all zero if none was.
+struct ActivationShares {
+  std::vector<float> classes;
+  std::vector<float> instances;
+};
+
+/// Recognizes objects by their descriptors. Every descriptor of the training views is a codeword. One of a new view
+/// activates those that are nearest (L2), and each of these votes for the place where its object's center would be: as
+/// it lay in the key point's local reference frame in training. Votes for a class gather at the centers of its objects;
+/// mean shift finds where they are densest.
+///
+/// Objects have a class ("mug") and an instance ("red mug"); an instance is known by both names together. For which
+/// descriptor a recognizer is, is said by the first training view: the text `layout` (layout_of(), with whatever else
+/// two descriptors must have in common to be compared) and the number of values. Radii, and how frames are turned, must
+/// be the same in training and afterwards.
+///
+/// Descriptors may be stored smaller (StoredFeatures); then they are compared as they are stored.
+///
+/// train() makes one, recognize() and activation_shares() ask it, save() and load() keep it. Calls that do not change
+/// it may run at the same time. All may throw what extract() may; a recognizer that ran out of memory in train() can
+/// only be assigned to or destroyed.
+class Recognizer {
+ public:
+  Recognizer() = default;
+  explicit Recognizer(const RecognizerOptions& options) noexcept : options_(options) {}
+
+  /// One that was moved from has its options still, and was never trained.
+  Recognizer(Recognizer&& other) noexcept : options_(other.options_) { std::swap(codebook_, other.codebook_); }
+  Recognizer(const Recognizer& other) = default;
+  Recognizer& operator=(Recognizer other) noexcept {
+    std::swap(options_, other.options_);
+    std::swap(codebook_, other.codebook_);
+    return *this;
+  }
+  ~Recognizer() = default;
+
+  [[nodiscard]] const RecognizerOptions& options() const noexcept { return options_; }
+  void set_options(const RecognizerOptions& options) noexcept { options_ = options; }
+
+  [[nodiscard]] std::size_t class_count() const noexcept { return codebook_.classes.size(); }
+  [[nodiscard]] std::size_t instance_count() const noexcept { return codebook_.instances.size(); }
+  [[nodiscard]] std::size_t codeword_count() const noexcept { return codebook_.codewords.size(); }
+  /// For numbers below class_count() and instance_count(), in the order of training.
+  [[nodiscard]] const std::string& class_name(std::size_t object_class) const {
+    return codebook_.classes[object_class];
+  }
+  [[nodiscard]] const std::string& instance_name(std::size_t instance) const { return codebook_.instances[instance]; }
+  [[nodiscard]] std::uint32_t class_of(std::size_t instance) const { return codebook_.class_of[instance]; }
+
+  /// What the first training view's descriptors were, and how many values they had; empty and 0 before it.
+  [[nodiscard]] const std::string& layout() const noexcept { return codebook_.layout; }
+  [[nodiscard]] std::size_t row_size() const noexcept { return codebook_.row_size; }
+
+ private:
+  friend struct detail::RecognizerAccess;
+
+  RecognizerOptions options_;
+  detail::Codebook codebook_;
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_TYPES {
+
+/// The inside of a recognizer, for train(), recognize(), save() and load().
+struct RecognizerAccess {
+  [[nodiscard]] static const Codebook& codebook(const Recognizer& recognizer) noexcept { return recognizer.codebook_; }
+  [[nodiscard]] static Codebook& codebook(Recognizer& recognizer) noexcept { return recognizer.codebook_; }
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_RECOGNIZER_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline constexpr FileKind flash_model_file{{flash_model_magic, 8}, flash_model_version};
+
+/// storage_number of a storage_layout.
+[[nodiscard]] inline std::uint64_t storage_number_of(const std::string& layout) noexcept {
+  LayoutNumber number;
+  number.add(layout.c_str());
+  return number.value;
+}
+
+/// The smallest power of two of which 16 bits reach all centers; at least 2^-100.
+[[nodiscard]] inline float unit_of_centers(const std::vector<Codebook::Codeword>& codewords) noexcept {
+  float farthest = 0.0f;
+  for (const Codebook::Codeword& codeword : codewords) {
+    for (const float c : {codeword.center.x, codeword.center.y, codeword.center.z})
+      farthest = std::max(farthest, std::abs(c));
+  }
+  float unit = std::ldexp(1.0f, -99);
+  while (32767.0f * unit < farthest && unit < 1e29f) unit *= 2.0f;
+  return unit;
+}
+
+/// In whole units, to the nearest.
+[[nodiscard]] inline std::uint16_t units_of(float coordinate, float unit) noexcept {
+  const float units = std::nearbyint(coordinate / unit);
+  return static_cast<std::uint16_t>(static_cast<std::int16_t>(std::max(-32767.0f, std::min(units, 32767.0f))));
+}
+
+[[nodiscard]] inline bool fits_flash(const Codebook& codebook) noexcept {
+  const auto has_zero = [](const std::string& text) { return text.find(char{0}) != std::string::npos; };
+  for (const std::vector<std::string>* const names : {&codebook.classes, &codebook.instances}) {
+    if (names->size() > 65536) return false;
+    for (const std::string& name : *names) {
+      if (has_zero(name)) return false;
+    }
+  }
+  return !has_zero(codebook.layout);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// A trained recognizer of descriptors in a storage of bytes (StoredFeatures of codes or bits), as ModelView reads it:
+/// one byte sequence, the same on every machine (see flash_model.hpp). A codeword takes its descriptor and 8 bytes: its
+/// center is kept in 16 bits a coordinate, in steps of at most a 32,000th of how far the farthest center lies from its
+/// key point.
+///
+/// Statuses: not_trained, bad_option, other_descriptor (a recognizer of floats or halves), bad_rows (2^32 bytes or
+/// more, more than 65536 names of a kind, a name with a character 0, a center farther away than 1e33 m); `bytes` is
+/// empty then. Allocates the bytes.
+[[nodiscard]] inline Status save_for_flash(const Recognizer& recognizer, std::vector<std::uint8_t>& bytes) {
+  const detail::Codebook& codebook = detail::RecognizerAccess::codebook(recognizer);
+  bytes.clear();
+  if (codebook.codewords.empty()) return Status::not_trained;
+  if (validate(recognizer.options()) != Status::ok) return Status::bad_option;
+  if (codebook.packed.empty()) return Status::other_descriptor;
+  if (!detail::fits_flash(codebook)) return Status::bad_rows;
+  const float unit = detail::unit_of_centers(codebook.codewords);
+  if (unit > 1e29f) return Status::bad_rows;
+
+  std::string text = codebook.layout + char{0};
+  for (const std::string& name : codebook.classes) text += name + char{0};
+  for (const std::string& name : codebook.instances) text += name + char{0};
+  const std::uint64_t most = 0xFFFFFFFFu;
+  if (codebook.codewords.size() > most || text.size() > most) return Status::bad_rows;
+  const auto row_bytes = static_cast<std::uint32_t>(codebook.row_size);
+  const auto codewords = static_cast<std::uint32_t>(codebook.codewords.size());
+  const auto instances = static_cast<std::uint32_t>(codebook.instances.size());
+  const detail::FlashLayout layout(row_bytes, codewords, instances, static_cast<std::uint32_t>(text.size()));
+  const std::uint64_t size_bytes = layout.checksum + detail::checksum_bytes;
+  if (size_bytes > most) return Status::bad_rows;
+
+  detail::ByteWriter to(bytes, detail::flash_model_file, static_cast<std::size_t>(size_bytes));
+  to.number(static_cast<std::uint32_t>(size_bytes));
+  to.number(detail::storage_number_of(codebook.layout));
+  to.real(recognizer.options().bandwidth);
+  to.number(recognizer.options().neighbors);
+  to.number(recognizer.options().most);
+  to.number(row_bytes);
+  to.number(codewords);
+  to.number(instances);
+  to.number(static_cast<std::uint32_t>(codebook.classes.size()));
+  to.number(static_cast<std::uint32_t>(text.size()));
+  to.real(unit);
+  for (const std::uint32_t object_class : codebook.class_of) to.number(static_cast<std::uint16_t>(object_class));
+  to.pad(static_cast<std::size_t>(layout.codewords));
+  for (const detail::Codebook::Codeword& codeword : codebook.codewords) {
+    to.number(static_cast<std::uint16_t>(codeword.instance));
+    to.number(detail::units_of(codeword.center.x, unit));
+    to.number(detail::units_of(codeword.center.y, unit));
+    to.number(detail::units_of(codeword.center.z, unit));
+  }
+  for (const std::uint8_t byte : codebook.packed) to.number(byte);
+  for (const char c : text) to.number(static_cast<std::uint8_t>(c));
+  to.pad(static_cast<std::size_t>(layout.checksum));
+  to.finish();
+  return Status::ok;
+}
+
+/// The recognizer that gives the hypotheses that a MicroRecognizer gives with the model, bit for bit: of its codewords,
+/// with centers as they were rounded. For descriptors of a storage_layout<Stored>().
+///
+/// Statuses: not_a_model, other_version, damaged_model, other_descriptor; `out` has not changed then. Allocates a few
+/// times the bytes at the most.
+[[nodiscard]] inline Status load_from_flash(const std::uint8_t* bytes, std::size_t size_bytes, std::string_view layout,
+                                            Recognizer& out) {
+  detail::FlashModel model;
+  const Status status = model.open(bytes, size_bytes);
+  if (status != Status::ok) return status;
+  if (model.text(0) != layout || model.storage() != detail::storage_number_of(std::string(layout)))
+    return Status::other_descriptor;
+  Recognizer loaded(model.options());
+  detail::Codebook& codebook = detail::RecognizerAccess::codebook(loaded);
+  codebook.layout = layout;
+  codebook.row_size = model.row_bytes();
+  for (std::uint32_t i = 0; i < model.class_count(); ++i) codebook.classes.emplace_back(model.text(1 + i));
+  for (std::uint32_t i = 0; i < model.instance_count(); ++i) {
+    codebook.instances.emplace_back(model.text(1 + model.class_count() + i));
+    codebook.class_of.push_back(model.class_of(i));
+  }
+  for (std::uint32_t i = 0; i < model.codeword_count(); ++i) {
+    codebook.codewords.push_back({model.instance_of(i), model.center_of(i)});
+  }
+  codebook.packed.assign(model.row(0), model.row(model.codeword_count()));
+  out = std::move(loaded);
+  return Status::ok;
+}
+
+/// The bytes of a model as a C++ header: `alignas(4) constexpr unsigned char NAME[] = {...};`. `name` is a C++
+/// identifier. Allocates some four times the bytes.
+[[nodiscard]] inline std::string flash_model_header(const std::vector<std::uint8_t>& bytes, std::string_view name) {
+  std::string text =
+      "// A model for shortshot::ModelView, by save_for_flash().\n#pragma once\n\nalignas(4) inline constexpr unsigned "
+      "char ";
+  text += name;
+  text += "[] = {";
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    text += i % 24 == 0 ? "\n    " : " ";
+    text += std::to_string(bytes[i]);
+    text += ',';
+  }
+  text += "\n};\n";
+  return text;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_RECOGNITION_FLASH_MODEL_FILE_HPP
+
 // shortshot/recognition/pose.hpp: the rigid motion that takes points to their correspondences, some of which are wrong,
 // by RANSAC. Hosted only: allocates.
 #ifndef SHORTSHOT_RECOGNITION_POSE_HPP
@@ -15791,175 +17024,7 @@ template <class Pairs>
 #ifndef SHORTSHOT_RECOGNITION_RECOGNIZE_HPP
 #define SHORTSHOT_RECOGNITION_RECOGNIZE_HPP
 
-// shortshot/recognition/codebook.hpp: what a recognizer has learnt. Hosted only: allocates.
-#ifndef SHORTSHOT_RECOGNITION_CODEBOOK_HPP
-#define SHORTSHOT_RECOGNITION_CODEBOOK_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_TYPES {
-
-/// Every descriptor of a training view is a codeword.
-struct Codebook {
-  struct Codeword {
-    std::uint32_t instance;
-    Point center;  // of the training view, in the key point's frame
-  };
-
-  std::string layout;
-  std::size_t row_size = 0;
-  std::vector<std::string> classes;
-  std::vector<std::string> instances;
-  std::vector<std::uint32_t> class_of;  // of each instance
-  std::vector<Codeword> codewords;
-  std::vector<float> values;         // codewords.size() * row_size, or
-  std::vector<std::uint8_t> packed;  // as many bytes, if descriptors are stored as codes or bits
-};
-
-/// Rows in any format, with places and frames: one of each a row.
-template <class Rows>
-struct PlacedRows {
-  Rows descriptors;
-  const KeyPoint* keypoints;
-  const Frame* frames;
-};
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
-[[nodiscard]] inline bool is_finite(const float* values, std::size_t count) noexcept {
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!math::is_finite(values[i])) return false;
-  }
-  return true;
-}
-
-/// Rows that there are, and descriptors that can be compared: all of their values are finite. ok or bad_rows.
-[[nodiscard]] inline Status check_values(const DescriptorRows& rows) noexcept {
-  Status status = validate(rows);
-  for (std::size_t row = 0; row < rows.count && status == Status::ok; ++row) {
-    if (is_ok(rows, row) && !is_finite(rows.values + row * rows.size, rows.size)) status = Status::bad_rows;
-  }
-  return status;
-}
-
-template <int Bits>
-[[nodiscard]] Status check_values(const CodedRows<Bits>& rows) noexcept {
-  return validate(rows);
-}
-[[nodiscard]] inline Status check_values(const BitRows& rows) noexcept { return validate(rows); }
-
-/// The same, with places and frames that one can cast a vote from: also invalid_keypoint and bad_frame.
-template <class Rows>
-[[nodiscard]] Status check_values(const PlacedRows<Rows>& rows) noexcept {
-  const bool is_complete = rows.descriptors.count == 0 || (rows.keypoints != nullptr && rows.frames != nullptr);
-  Status status = is_complete ? check_values(rows.descriptors) : Status::bad_rows;
-  for (std::size_t row = 0; row < rows.descriptors.count && status == Status::ok; ++row) {
-    if (!is_ok(rows.descriptors, row)) continue;
-    status = is_finite(rows.keypoints[row].position) ? validate(rows.frames[row]) : Status::invalid_keypoint;
-  }
-  return status;
-}
-
-/// A point in a frame's coordinates, and back.
-[[nodiscard]] inline Point to_local(const Point& p, const Point& origin, const Frame& frame) noexcept {
-  const float offset[3] = {p.x - origin.x, p.y - origin.y, p.z - origin.z};
-  return {dot(frame.x, offset), dot(frame.y, offset), dot(frame.z, offset)};
-}
-[[nodiscard]] inline Point from_local(const Point& p, const Point& origin, const Frame& frame) noexcept {
-  const auto component = [&](int k) {
-    return (unfused(p.x * frame.x[k]) + unfused(p.y * frame.y[k])) + unfused(p.z * frame.z[k]);
-  };
-  return {origin.x + component(0), origin.y + component(1), origin.z + component(2)};
-}
-
-/// The codewords as rows that can be compared with these, which are of the same layout.
-[[nodiscard]] inline DescriptorRows rows_like(const DescriptorRows&, const Codebook& codebook) noexcept {
-  return {codebook.values.data(), codebook.codewords.size(), codebook.row_size, nullptr};
-}
-template <int Bits>
-[[nodiscard]] CodedRows<Bits> rows_like(const CodedRows<Bits>& rows, const Codebook& codebook) noexcept {
-  return {codebook.packed.data(), codebook.codewords.size(), codebook.row_size, rows.step, nullptr};
-}
-[[nodiscard]] inline BitRows rows_like(const BitRows&, const Codebook& codebook) noexcept {
-  return {codebook.packed.data(), codebook.codewords.size(), codebook.row_size, nullptr};
-}
-
-/// Appends a row to what the codebook has.
-inline void append(Codebook& codebook, const DescriptorRows& rows, std::size_t row) {
-  const float* const values = rows.values + row * rows.size;
-  codebook.values.insert(codebook.values.end(), values, values + rows.size);
-}
-template <class Rows>
-void append(Codebook& codebook, const Rows& rows, std::size_t row) {
-  const std::uint8_t* const bytes = rows.bytes + row * rows.size;
-  codebook.packed.insert(codebook.packed.end(), bytes, bytes + rows.size);
-}
-
-/// Are these the descriptors that it was made of?
-[[nodiscard]] inline Status validate_queries(const Codebook& codebook, std::size_t row_size, bool are_packed,
-                                             std::string_view layout) noexcept {
-  if (codebook.codewords.empty()) return Status::not_trained;
-  const bool alike = row_size == codebook.row_size && are_packed == !codebook.packed.empty();
-  return alike && layout == codebook.layout ? Status::ok : Status::other_descriptor;
-}
-
-/// The number of a class, or of an instance; a new one if there is none of that name.
-[[nodiscard]] inline std::uint32_t class_number(Codebook& codebook, std::string_view name) {
-  const std::size_t count = codebook.classes.size();
-  std::size_t number = 0;
-  while (number < count && codebook.classes[number] != name) ++number;
-  if (number == count) codebook.classes.push_back(std::string(name));
-  return static_cast<std::uint32_t>(number);
-}
-[[nodiscard]] inline std::uint32_t instance_number(Codebook& codebook, std::uint32_t object_class,
-                                                   std::string_view name) {
-  const std::size_t count = codebook.instances.size();
-  const auto is_it = [&](std::size_t i) {
-    return codebook.class_of[i] == object_class && codebook.instances[i] == name;
-  };
-  std::size_t number = 0;
-  while (number < count && !is_it(number)) ++number;
-  if (number == count) {
-    codebook.instances.push_back(std::string(name));
-    codebook.class_of.push_back(object_class);
-  }
-  return static_cast<std::uint32_t>(number);
-}
-
-/// Adds the rows, which were validated, of an object of which `center` is the center. All or nothing.
-template <class Rows>
-[[nodiscard]] Status add(Codebook& codebook, const PlacedRows<Rows>& rows, const Point& center,
-                         std::string_view object_class, std::string_view instance) {
-  const Rows& descriptors = rows.descriptors;
-  std::vector<Point> centers(descriptors.count);
-  std::size_t added = 0;
-  for (std::size_t row = 0; row < descriptors.count; ++row) {
-    if (!is_ok(descriptors, row)) continue;
-    centers[row] = to_local(center, rows.keypoints[row].position, rows.frames[row]);
-    if (!shortshot::is_finite(centers[row])) return Status::invalid_keypoint;  // farther away than floats reach
-    ++added;
-  }
-  if (added == 0) return Status::ok;
-  if (added >= no_row - codebook.codewords.size()) return Status::bad_rows;
-
-  const std::string name(instance);  // a copy: the view may be of a name in the codebook, which a new class moves
-  const std::uint32_t number = instance_number(codebook, class_number(codebook, object_class), name);
-  for (std::size_t row = 0; row < descriptors.count; ++row) {
-    if (!is_ok(descriptors, row)) continue;
-    append(codebook, descriptors, row);
-    codebook.codewords.push_back({number, centers[row]});
-  }
-  return Status::ok;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_RECOGNITION_CODEBOOK_HPP
-
-// shortshot/recognition/mean_shift.hpp: the maxima of a density of votes in space. Hosted only: allocates.
-//
-// After D. Comaniciu, P. Meer: Mean shift: A robust approach toward feature space analysis (PAMI 24, 2002), with a
-// Gaussian kernel.
+// shortshot/recognition/mean_shift.hpp: the maxima of a density of many votes in space. Hosted only: allocates.
 #ifndef SHORTSHOT_RECOGNITION_MEAN_SHIFT_HPP
 #define SHORTSHOT_RECOGNITION_MEAN_SHIFT_HPP
 
@@ -15968,56 +17033,12 @@ template <class Rows>
 #ifndef SHORTSHOT_RECOGNITION_VOTE_CELLS_HPP
 #define SHORTSHOT_RECOGNITION_VOTE_CELLS_HPP
 
-// shortshot/recognition/vote_centers.hpp: votes for an object's center, and a list of them as lanes read it. Hosted
-// only: allocates.
-#ifndef SHORTSHOT_RECOGNITION_VOTE_CENTERS_HPP
-#define SHORTSHOT_RECOGNITION_VOTE_CENTERS_HPP
+// shortshot/recognition/vote_centers_list.hpp: a list of centers of votes. Hosted only: allocates.
+#ifndef SHORTSHOT_RECOGNITION_VOTE_CENTERS_LIST_HPP
+#define SHORTSHOT_RECOGNITION_VOTE_CENTERS_LIST_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
-
-/// A vote for an object's center.
-struct Vote {
-  Point center;
-  std::uint32_t object_class;
-  std::uint32_t instance;
-};
-
-/// Centers of votes, borrowed. A register that they do not fill is filled with the last one at an infinite x: out of
-/// any reach, and nothing overflows on the way.
-struct VoteCenters {
-  const float* x;
-  const float* y;
-  const float* z;
-  std::size_t padded;  ///< how many there are with these; a multiple of lanes
-};
-
-/// How far some votes lie from a place.
-struct VoteOffsets {
-  simd::F32 x, y, z;
-  simd::F32 d2;  ///< as squared_distance() has it
-};
-
-[[nodiscard]] SHORTSHOT_INLINE VoteOffsets offsets(const VoteCenters& votes, std::size_t i,
-                                                   const Point& from) noexcept {
-  const simd::F32 x = simd::load(votes.x + i) - simd::all(from.x);
-  const simd::F32 y = simd::load(votes.y + i) - simd::all(from.y);
-  const simd::F32 z = simd::load(votes.z + i) - simd::all(from.z);
-  return {x, y, z, (x * x + y * y) + z * z};
-}
-
-[[nodiscard]] constexpr std::size_t padded(std::size_t count) noexcept {
-  return (count + simd::lanes - 1) / simd::lanes * simd::lanes;
-}
-
-/// Fills the last register of columns of centers.
-inline void pad(float* x, float* y, float* z, std::size_t count) noexcept {
-  for (std::size_t i = count; i < padded(count); ++i) {
-    x[i] = extend::math::float_of(0x7F800000u);
-    y[i] = y[count - 1];
-    z[i] = z[count - 1];
-  }
-}
 
 /// The centers of votes[i] for each index, as columns.
 inline void write_centers(const Vote* votes, const std::vector<std::size_t>& indices, float* x, float* y,
@@ -16073,7 +17094,7 @@ class VoteCentersList {
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
-#endif  // SHORTSHOT_RECOGNITION_VOTE_CENTERS_HPP
+#endif  // SHORTSHOT_RECOGNITION_VOTE_CENTERS_LIST_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -16205,107 +17226,8 @@ class VoteCells {
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_RECOGNITION_VOTE_CELLS_HPP
 
-// shortshot/recognition/vote_density.hpp: how dense votes are at a place, and where their mean lies from there.
-#ifndef SHORTSHOT_RECOGNITION_VOTE_DENSITY_HPP
-#define SHORTSHOT_RECOGNITION_VOTE_DENSITY_HPP
-
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
-
-/// e^-t, for t from 0 to 80: within 3e-7 of it, relatively, and the same on every machine, as libm's is not.
-[[nodiscard]] SHORTSHOT_INLINE simd::F32 exp_minus(simd::F32 t) noexcept {
-  using simd::all;
-  using simd::F32;
-  using simd::I32;
-  constexpr float factors[] = {1.0f / 720.0f, 1.0f / 120.0f, 1.0f / 24.0f, 1.0f / 6.0f, 0.5f, 1.0f, 1.0f};
-  const I32 halvings = shift_right(truncate_to_int(t * all(2.88539008f)) + simd::all_int(1), 1);  // t / ln 2, rounded
-  const F32 n = to_float(halvings);
-  const F32 r = (n * all(0.693359375f) - t) - n * all(2.12194440e-4f);  // ln 2 in two parts; |r| <= ln 2 / 2
-  F32 sum = all(factors[0]);
-  unroll<6>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sum = all(factors[k + 1]) + r * sum; });
-  return simd::from_bits(bits_of(sum) - shift_left(halvings, 23));  // exactly: above 2^-126
-}
-[[nodiscard]] inline float exp_minus(float t) noexcept { return simd::largest(exp_minus(simd::all(t))); }
-
-/// The density of votes (finite, of one class): the sum of w = exp(-d^2 / (2 h^2)) over their distances d, with h the
-/// bandwidth.
-class VoteDensity {
- public:
-  static constexpr float reach = 6.0f;  ///< in bandwidths; the weight of a vote that far away is lost next to a 1
-
-  explicit VoteDensity(float bandwidth) noexcept
-      : bandwidth_(bandwidth),
-        reach_d2_(reach * reach * bandwidth * bandwidth),
-        factor_(0.5f / (bandwidth * bandwidth)) {}
-
-  [[nodiscard]] float bandwidth() const noexcept { return bandwidth_; }
-
-  /// What a vote adds to the density at a place.
-  [[nodiscard]] float weight(const Vote& vote, const Point& at) const noexcept {
-    const float d2 = squared_distance(vote.center, at);
-    return d2 < reach_d2_ ? exp_minus(extend::unfused(factor_ * d2)) : 0.0f;
-  }
-
-  struct Sums {
-    float density;
-    Point shift;  ///< of w times the vote's offset: of differences, so that nothing is lost far away from the origin
-  };
-
-  /// Of votes that include all in reach. They are added one after the other, whatever the number of lanes; one that is
-  /// out of reach adds zeros, as if it were not there. Offsets of the votes must be finite.
-  [[nodiscard]] Sums at(const Point& place, const VoteCenters& votes) const noexcept {
-    using simd::F32;
-    const F32 reach_d2 = simd::all(reach_d2_);
-    const F32 factor = simd::all(factor_);
-    Sum sum;
-    for (std::size_t i = 0; i < votes.padded; i += simd::lanes) {
-      const VoteOffsets offset = offsets(votes, i, place);
-      const simd::Mask reached = offset.d2 < reach_d2;
-      const F32 w = keep(reached, exp_minus(factor * keep(reached, offset.d2)));
-      sum.add(w, w * keep(reached, offset.x), w * offset.y, w * offset.z);  // x may be infinite
-    }
-    return sum.result();
-  }
-
- private:
-  /// Four sums, of numbers in lanes.
-  class Sum {
-   public:
-    template <class F32>
-    SHORTSHOT_INLINE void add(F32 w, F32 x, F32 y, F32 z) noexcept {
-      if constexpr (simd::lanes == 1) {
-        const F32 terms[] = {w, x, y, z};
-        for (int k = 0; k < 4; ++k) sums_[k] += simd::largest(terms[k]);
-      } else {
-        simd::Quad terms[simd::lanes];
-        transpose(bits_of(w), bits_of(x), bits_of(y), bits_of(z), terms);
-        unroll<simd::lanes>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sums_ += reinterpret_cast<Four>(terms[k]); });
-      }
-    }
-    [[nodiscard]] Sums result() const noexcept { return {sums_[0], {sums_[1], sums_[2], sums_[3]}}; }
-
-   private:
-    using Four = float __attribute__((vector_size(16)));
-    Four sums_{};
-  };
-
-  float bandwidth_;
-  float reach_d2_;
-  float factor_;
-};
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_RECOGNITION_VOTE_DENSITY_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// A place and how dense votes are there.
-struct Peak {
-  Point at;
-  float density;
-};
 
 /// Climbs from votes (finite, borrowed, of one class) to the maxima of their density. The result is that of a look at
 /// all votes for each step, bit for bit. Only constructors allocate; see VoteCells.
@@ -16333,17 +17255,7 @@ class MeanShift {
   /// The maximum where the mean shift from a vote ends, after 100 steps at the most. Cheapest where the last climb with
   /// the same memory, since this was made, began or ended close by.
   [[nodiscard]] Peak climb(const Vote& vote, Memory& memory) const noexcept {
-    const float still_d2 = still * still * density_.bandwidth() * density_.bandwidth();
-    Peak peak{vote.center, 0.0f};
-    Point at = vote.center;
-    for (int step = 0; step < most_steps; ++step) {
-      const VoteDensity::Sums sums = density_.at(at, reachable(at, memory));
-      if (!(sums.density > peak.density)) break;  // it grows, but for rounding, from the 1 of the vote itself
-      peak = {at, sums.density};
-      at = {at.x + sums.shift.x / sums.density, at.y + sums.shift.y / sums.density, at.z + sums.shift.z / sums.density};
-      if (!(squared_distance(at, peak.at) > still_d2)) break;
-    }
-    return peak;
+    return detail::climb(density_, vote.center, [&](const Point& at) { return reachable(at, memory); });
   }
 
   /// The votes' indices, those that are close to each other one after the other.
@@ -16353,8 +17265,6 @@ class MeanShift {
   }
 
  private:
-  static constexpr float still = 1e-3f;  // a shift that ends the climb, in bandwidths
-  static constexpr int most_steps = 100;
   static constexpr float margin = 0.75f;  // how far from its middle a list of what is close is good, in bandwidths
   static constexpr float close = 1.001f * (VoteDensity::reach + margin);
 
@@ -16378,130 +17288,6 @@ class MeanShift {
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_RECOGNITION_MEAN_SHIFT_HPP
-
-// shortshot/recognition/recognizer.hpp: what has been learned of objects: an implicit shape model, whose descriptors
-// vote for the centers of objects. recognize.hpp trains and asks it. Hosted only.
-//
-// After B. Leibe, A. Leonardis, B. Schiele: Robust object detection with interleaved categorization and segmentation
-// (IJCV 77, 2008), with local reference frames in 3-D as in F. Tombari, L. Di Stefano: Object recognition in 3D scenes
-// with occlusions and clutter by Hough voting (PSIVT 2010).
-#ifndef SHORTSHOT_RECOGNITION_RECOGNIZER_HPP
-#define SHORTSHOT_RECOGNITION_RECOGNIZER_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_TYPES {
-
-struct RecognizerAccess;
-
-}  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-struct RecognizerOptions {
-  float bandwidth = 0.03f;      ///< h of the density of votes, 1e-6 to 1e6 meters: about how far votes miss the center
-  std::uint32_t neighbors = 1;  ///< nearest codewords that each descriptor activates, 1 to 1024
-  std::uint32_t most = 8;       ///< hypotheses at the most, from 1 on
-};
-
-/// An object that may be there; see Recognizer::class_name() and instance_name() for the numbers. Trivial type.
-struct Hypothesis {
-  std::uint32_t object_class;
-  std::uint32_t instance;
-  Point center;  ///< where that of the training views is in this view
-  float score;   ///< density of the class' votes there: 1 for each that hits it, exp(-d^2 / (2 h^2)) if d meters off
-};
-
-/// The share that each class, and each instance, has in the codewords that were activated: 0 to 1, all of them 1
-/// together, or all zero if none was.
-struct ActivationShares {
-  std::vector<float> classes;
-  std::vector<float> instances;
-};
-
-/// Recognizes objects by their descriptors. Every descriptor of the training views is a codeword. One of a new view
-/// activates those that are nearest (L2), and each of these votes for the place where its object's center would be: as
-/// it lay in the key point's local reference frame in training. Votes for a class gather at the centers of its objects;
-/// mean shift finds where they are densest.
-///
-/// Objects have a class ("mug") and an instance ("red mug"); an instance is known by both names together. For which
-/// descriptor a recognizer is, is said by the first training view: the text `layout` (layout_of(), with whatever else
-/// two descriptors must have in common to be compared) and the number of values. Radii, and how frames are turned, must
-/// be the same in training and afterwards.
-///
-/// Descriptors may be stored smaller (StoredFeatures); then they are compared as they are stored.
-///
-/// train() makes one, recognize() and activation_shares() ask it, save() and load() keep it. Calls that do not change
-/// it may run at the same time. All may throw what extract() may; a recognizer that ran out of memory in train() can
-/// only be assigned to or destroyed.
-class Recognizer {
- public:
-  Recognizer() = default;
-  explicit Recognizer(const RecognizerOptions& options) noexcept : options_(options) {}
-
-  /// One that was moved from has its options still, and was never trained.
-  Recognizer(Recognizer&& other) noexcept : options_(other.options_) { std::swap(codebook_, other.codebook_); }
-  Recognizer(const Recognizer& other) = default;
-  Recognizer& operator=(Recognizer other) noexcept {
-    std::swap(options_, other.options_);
-    std::swap(codebook_, other.codebook_);
-    return *this;
-  }
-  ~Recognizer() = default;
-
-  [[nodiscard]] const RecognizerOptions& options() const noexcept { return options_; }
-  void set_options(const RecognizerOptions& options) noexcept { options_ = options; }
-
-  [[nodiscard]] std::size_t class_count() const noexcept { return codebook_.classes.size(); }
-  [[nodiscard]] std::size_t instance_count() const noexcept { return codebook_.instances.size(); }
-  [[nodiscard]] std::size_t codeword_count() const noexcept { return codebook_.codewords.size(); }
-  /// For numbers below class_count() and instance_count(), in the order of training.
-  [[nodiscard]] const std::string& class_name(std::size_t object_class) const {
-    return codebook_.classes[object_class];
-  }
-  [[nodiscard]] const std::string& instance_name(std::size_t instance) const { return codebook_.instances[instance]; }
-  [[nodiscard]] std::uint32_t class_of(std::size_t instance) const { return codebook_.class_of[instance]; }
-
-  /// What the first training view's descriptors were, and how many values they had; empty and 0 before it.
-  [[nodiscard]] const std::string& layout() const noexcept { return codebook_.layout; }
-  [[nodiscard]] std::size_t row_size() const noexcept { return codebook_.row_size; }
-
- private:
-  friend struct detail::RecognizerAccess;
-
-  RecognizerOptions options_;
-  detail::Codebook codebook_;
-};
-
-}  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_TYPES {
-
-/// The inside of a recognizer, for train(), recognize(), save() and load().
-struct RecognizerAccess {
-  [[nodiscard]] static const Codebook& codebook(const Recognizer& recognizer) noexcept { return recognizer.codebook_; }
-  [[nodiscard]] static Codebook& codebook(Recognizer& recognizer) noexcept { return recognizer.codebook_; }
-};
-
-}  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_RECOGNITION_RECOGNIZER_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// ok or bad_option.
-[[nodiscard]] inline Status validate(const RecognizerOptions& options) noexcept {
-  const bool usable = options.bandwidth >= 1e-6f && options.bandwidth <= 1e6f && options.neighbors >= 1 &&
-                      options.neighbors <= 1024 && options.most >= 1;
-  return usable ? Status::ok : Status::bad_option;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -16609,11 +17395,7 @@ inline void choose(const Recognizer& recognizer, const std::vector<Vote>& votes,
     if (out.size() == recognizer.options().most) break;
     const std::uint32_t object_class = votes[i].object_class;
     const Point& at = peaks[i].at;
-    const bool is_known = std::any_of(out.begin(), out.end(), [&](const Hypothesis& denser) {
-      return denser.object_class == object_class &&
-             squared_distance(denser.center, at) <= unfused(bandwidth * bandwidth);
-    });
-    if (is_known) continue;
+    if (is_known(out.data(), out.size(), object_class, at, bandwidth)) continue;
     out.push_back({object_class, heaviest_instance(recognizer, votes, object_class, at), at, peaks[i].density});
   }
 }

@@ -23,7 +23,7 @@
 
 #if defined(__unix__) || defined(__APPLE__) || defined(_WIN32)
 #include "batch/grid_search.hpp"
-#include "descriptor/layout_text.hpp"
+#include "descriptor/layout_of.hpp"
 #include "batch/keypoints.hpp"
 #include "batch/estimate_normals.hpp"
 #include "batch/estimate_image_normals.hpp"
@@ -35,6 +35,7 @@
 #include "batch/to_pcl.hpp"
 #include "store/features_file.hpp"
 #include "store/stored_features.hpp"
+#include "recognition/flash_model_file.hpp"
 #include "recognition/match.hpp"
 #include "recognition/pose.hpp"
 #include "recognition/recognize.hpp"

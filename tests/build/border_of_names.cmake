@@ -14,4 +14,4 @@ endforeach()
 
 # `using namespace` of the standard library, of PCL (its names, if it is not there) and of ours in one file.
 build_test(names_beside_others ${compile} -fsyntax-only "${here}/names_beside_others.cpp")
-build_test(names_beside_others.counted "${here}/count_names.sh" "${PROJECT_SOURCE_DIR}/include" 199)  # copies of messages, and what their channels are; diagnose() and what it sees; stored features: a type, how they are made, their layout; a frame under a fixed lamp; a sampler that keeps its memory; normals of depth images: a function and what keeps its memory; marks of where they are needed
+build_test(names_beside_others.counted "${here}/count_names.sh" "${PROJECT_SOURCE_DIR}/include" 204)  # copies of messages, and what their channels are; diagnose() and what it sees; stored features: a type, how they are made, their layout; a frame under a fixed lamp; a sampler that keeps its memory; normals of depth images: a function and what keeps its memory; marks of where they are needed; models in flash: a view and a recognizer of them, and three functions that write and read them

@@ -22,6 +22,14 @@ shortshot::CodedDescriptor<shortshot::ShapeColor95, 3> thirds;
 shortshot::HalfDescriptor<shortshot::ShapeColor95> halves;
 shortshot::SumBits<shortshot::ShapeColor95> sums;
 
+using Nibbles = shortshot::NibbleDescriptor<shortshot::ShapeColor95>;
+using Sums = shortshot::SumBits<shortshot::ShapeColor95>;
+shortshot::ModelView<Nibbles> model_of_nibbles;
+shortshot::ModelView<Sums> model_of_sums;
+shortshot::MicroRecognizer<Nibbles, 32, max_neighbors> of_nibbles;
+shortshot::MicroRecognizer<Sums, 32, max_neighbors, 2> of_sums;
+shortshot::Hypothesis found[2];
+
 using Multilinear = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::MultilinearVoting>;
 using Hard = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::HardVoting, shortshot::LogRadius<>>;
 using Pcl = shortshot::Scsh<shortshot::SphericalGrid<2, 2, 8>, shortshot::SphericalGrid<2, 2, 4>, 15,
@@ -93,7 +101,34 @@ shortshot::Status describe_with_normals(const shortshot::CloudView& points, std:
   return status;
 }
 
+template <class Model, class Recognizer>
+shortshot::Status recognize(Model& model, Recognizer& recognizer, const shortshot::CloudView& cloud, float radius,
+                            const unsigned char* in_flash, std::size_t size, const char** name) {
+  using shortshot::Status;
+  Status status = model.open(in_flash, size);
+  if (status != Status::ok) return status;
+  recognizer.start(model);
+  for (std::size_t i = 0; i < cloud.size && status == Status::ok; i += 7) {
+    status = recognizer.add(cloud, grid, i, radius);
+  }
+  if (recognizer.finish(found) > 0) *name = model.instance_name(found[0].instance);
+  return status;
+}
+
 }  // namespace
+
+extern "C" const char* recognize_patch(const float* xyz, const unsigned char* rgb, std::size_t count, float radius,
+                                       const unsigned char* in_flash, std::size_t size) {
+  const shortshot::CloudView cloud = shortshot::view_xyz_rgb(xyz, rgb, count);
+  const char* name = nullptr;
+  shortshot::Status status = grid.build(cloud, radius);
+  if (status == shortshot::Status::ok)
+    status = recognize(model_of_nibbles, of_nibbles, cloud, radius, in_flash, size, &name);
+  if (status == shortshot::Status::other_descriptor) {
+    status = recognize(model_of_sums, of_sums, cloud, radius, in_flash, size, &name);
+  }
+  return status == shortshot::Status::ok ? name : shortshot::message(status);
+}
 
 extern "C" const float* describe_patch(const float* xyz, const unsigned char* rgb, std::size_t count, std::size_t width,
                                        std::size_t index, float radius, const char** message) {

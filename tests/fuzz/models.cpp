@@ -1,6 +1,11 @@
-// Files of recognizers and of features, damaged: a status, or what is saved again with the same bytes.
+// Files of recognizers and of features, damaged: a status, or what is saved again with the same bytes. Models in flash,
+// damaged: a status, or the same hypotheses by both recognizers.
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <shortshot/descriptor/compact.hpp>
+#include <shortshot/recognition/flash_model_file.hpp>
+#include <shortshot/recognition/micro_recognizer.hpp>
 #include <shortshot/recognition/recognize_stored.hpp>
 #include <shortshot/recognition/recognizer_model.hpp>
 #include <shortshot/store/features_file.hpp>
@@ -54,13 +59,26 @@ File file_of_recognizer() {
 }
 
 /// Of stored descriptors, which are compared as they are stored.
-File file_of_packed_recognizer() {
+ss::Recognizer packed_recognizer() {
   Stored stored;
   ss::Recognizer recognizer;
-  File file;
   require(ss::store(made_features(), stored) == Status::ok, "stored");
   require(ss::train(recognizer, stored, {}, "mug", "red") == Status::ok, "trained");
-  require(ss::save(recognizer, file) == Status::ok, "saved");
+  return recognizer;
+}
+File file_of_packed_recognizer() {
+  File file;
+  require(ss::save(packed_recognizer(), file) == Status::ok, "saved");
+  return file;
+}
+
+File flash_model() {
+  ss::Recognizer recognizer = packed_recognizer();
+  Stored stored;
+  File file;
+  require(ss::store(made_features(), stored) == Status::ok, "stored");
+  require(ss::train(recognizer, stored, {0.1f, 0.0f, 0.0f}, "can", "blue") == Status::ok, "trained");
+  require(ss::save_for_flash(recognizer, file) == Status::ok, "saved");
   return file;
 }
 
@@ -72,8 +90,8 @@ File file_of_features() {
 
 /// One of ours with some changes, or the fuzzer's bytes as they are.
 File made_file(fuzz::Bytes& from, std::size_t kind, bool is_raw) {
-  static const File whole[] = {file_of_recognizer(), file_of_features(), file_of_storage<Stored>(),
-                               file_of_storage<Halves>(), file_of_packed_recognizer()};
+  static const File whole[] = {file_of_recognizer(),      file_of_features(),          file_of_storage<Stored>(),
+                               file_of_storage<Halves>(), file_of_packed_recognizer(), flash_model()};
   if (is_raw) return File(from.data(), from.data() + from.left());
   File file = whole[kind];
   while (from.left() > 0 && !file.empty()) {
@@ -139,6 +157,36 @@ void load_recognizer(const File& file, const std::string& layout, bool is_packed
   check_hypotheses(recognizer, ss::recognize(recognizer, row, layout, objects), objects);
 }
 
+void open_flash_model(const File& file) {
+  using Bytes = ss::ByteDescriptor<D>;
+  ss::ModelView<Bytes> model;
+  ss::Recognizer loaded;
+  const Status status = model.open(file.data(), file.size());
+  const Status of_host = ss::load_from_flash(file.data(), file.size(), ss::storage_layout<Bytes>(), loaded);
+  require((status == Status::ok) || model.codeword_count() == 0, "what is refused changes nothing");
+  require(status == Status::ok || of_host == status, "both refuse it for the same reason");
+  if (status != Status::ok || model.codeword_count() > 64) return;
+  for (std::uint32_t i = 0; i < model.instance_count(); ++i) {
+    require(model.class_of(i) < model.class_count() && std::strlen(model.instance_name(i)) < file.size(), "a name");
+  }
+  for (std::uint32_t i = 0; i < model.class_count(); ++i)
+    require(std::strlen(model.class_name(i)) < file.size(), "a name");
+  Stored stored;
+  std::vector<ss::Hypothesis> expected;
+  require(ss::store(made_features(), stored) == Status::ok, "stored");
+  ss::MicroRecognizer<Bytes, 2, 5, 4> recognizer;
+  recognizer.start(model);
+  const Status added = recognizer.add(stored.descriptors[0], stored.keypoints[0].position, stored.frames[0]);
+  if (of_host != Status::ok || added != Status::ok) return;  // another text of the layout; more than four activated
+  ss::Hypothesis found[4];
+  const std::size_t count = recognizer.finish(found);
+  require(ss::recognize(loaded, stored, expected) == Status::ok, "what can be loaded recognizes");
+  require(count == std::min<std::size_t>(4, expected.size()), "as many hypotheses");
+  for (std::size_t i = 0; i < count; ++i) {
+    require(std::memcmp(&found[i], &expected[i], sizeof found[i]) == 0, "the same ones, bit for bit");
+  }
+}
+
 template <class Some>
 void load_features(const File& file) {
   Some features;
@@ -156,14 +204,15 @@ void load_features(const File& file) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Bytes from(data, size);
   const std::uint8_t how = from.byte();
-  const std::size_t kind = how % 5;
+  const std::size_t kind = how < 224 ? how % 5 : 5;
   File file = made_file(from, kind, how % 25 / 5 == 0);
-  if (how < 192) seal(file);
+  if (how < 192 || how >= 232) seal(file);
   switch (kind) {
     case 0: load_recognizer(file, plain_layout, false); break;
     case 1: load_features<ss::Features<D>>(file); break;
     case 2: load_features<Stored>(file); break;
     case 3: load_features<Halves>(file); break;
+    case 5: open_flash_model(file); break;
     default: load_recognizer(file, ss::storage_layout<ss::ByteDescriptor<D>>(), true);
   }
   return 0;

@@ -1,9 +1,10 @@
-// shortshot/descriptor/layout_text.hpp: what the values of a descriptor mean, as text: for files, and for code that
-// knows descriptors only at run time. Hosted only: allocates.
+// shortshot/descriptor/layout_text.hpp: what the values of a descriptor mean, in English: for files, and for code that
+// knows descriptors only at run time. What becomes of the text is up to whom it is told to: a string (layout_of.hpp),
+// or a number (LayoutNumber), which needs no memory.
 #pragma once
 
+#include <cstdint>
 #include <numeric>
-#include <string>
 #include <type_traits>
 
 #include "../config.hpp"
@@ -16,18 +17,29 @@ inline namespace SHORTSHOT_CODE {
 template <class Policy, class = void>
 struct HasName : std::false_type {};
 template <class Policy>
-struct HasName<Policy, std::void_t<decltype(std::string(Policy::name))>> : std::true_type {};
+struct HasName<Policy, std::enable_if_t<std::is_convertible<decltype(Policy::name), const char*>::value>>
+    : std::true_type {};
 
-// Called, not inlined: text is put together from many pieces, and a compiler would take its time for each.
-[[gnu::noinline]] inline void add(std::string& text, const char* more) { text += more; }
-[[gnu::noinline]] inline void add(std::string& text, int number) { text += std::to_string(number); }
-template <class... Pieces>
-void add_all(std::string& text, Pieces... pieces) {
+/// A text's pieces, one after the other, to whoever has add(const char*).
+template <class Text>
+constexpr void add(Text& text, const char* piece) {
+  text.add(piece);
+}
+template <class Text>
+constexpr void add(Text& text, int number) {
+  char digits[12] = {};
+  char* first = digits + 11;
+  for (; number >= 10; number /= 10) *--first = static_cast<char>('0' + number % 10);
+  *--first = static_cast<char>('0' + number);
+  text.add(first);
+}
+template <class Text, class... Pieces>
+constexpr void add_all(Text& text, Pieces... pieces) {
   (add(text, pieces), ...);
 }
 
 template <class Policy>
-[[nodiscard]] const char* name_of() noexcept {
+[[nodiscard]] constexpr const char* name_of() noexcept {
   static_assert(HasName<Policy>::value,
                 "layout_of<D>() supports policies with `static constexpr const char* name`, which must tell them from "
                 "all others");
@@ -37,11 +49,13 @@ template <class Policy>
 /// What a radius scale's name leaves open.
 template <class Scale>
 struct ScaleParameters {
-  static void add_to(std::string&) {}
+  template <class Text>
+  static constexpr void add_to(Text&) {}
 };
 template <int Numerator, int Denominator>
 struct ScaleParameters<LogRadius<Numerator, Denominator>> {
-  static void add_to(std::string& text) {
+  template <class Text>
+  static constexpr void add_to(Text& text) {
     constexpr int common = std::gcd(Numerator, Denominator);
     add_all(text, " from ", Numerator / common, "/", Denominator / common);
   }
@@ -50,28 +64,34 @@ struct ScaleParameters<LogRadius<Numerator, Denominator>> {
 /// What a part's finish says of itself; nothing where sums are its values.
 template <class Finish>
 struct FinishText {
-  static void add_to(std::string& text) { add_all(text, ", ", name_of<Finish>()); }
+  template <class Text>
+  static constexpr void add_to(Text& text) {
+    add_all(text, ", ", name_of<Finish>());
+  }
 };
 template <>
 struct FinishText<PlainSums> {
-  static void add_to(std::string&) {}
+  template <class Text>
+  static constexpr void add_to(Text&) {}
 };
 template <int PerMille>
 struct FinishText<RootOfShares<PerMille>> {
-  static void add_to(std::string& text) {
+  template <class Text>
+  static constexpr void add_to(Text& text) {
     add_all(text, ", ", name_of<RootOfShares<PerMille>>(), ", length ", PerMille, "/1000");
   }
 };
 template <int PerMille, int FloorPercent, int NoisePerMille>
 struct FinishText<SignedRoots<PerMille, FloorPercent, NoisePerMille>> {
-  static void add_to(std::string& text) {
+  template <class Text>
+  static constexpr void add_to(Text& text) {
     add_all(text, ", ", name_of<SignedRoots<PerMille, FloorPercent, NoisePerMille>>(), ", length ", PerMille,
             "/1000, floor ", FloorPercent, "/100, noise ", NoisePerMille, "/1000");
   }
 };
 
-template <class Signal>
-void add_color(std::string& text) {
+template <class Signal, class Text>
+constexpr void add_color(Text& text) {
   if constexpr (!std::is_void<typename Signal::Rule>::value) {
     add_all(text, " (", name_of<typename Signal::Rule>());
     if constexpr (std::is_same<typename Signal::Reference, MeanColor>::value)
@@ -80,15 +100,15 @@ void add_color(std::string& text) {
   }
 }
 
-template <class First, class... Others>
-void add_means(std::string& text, SignalList<First, Others...>) {
+template <class Text, class First, class... Others>
+constexpr void add_means(Text& text, SignalList<First, Others...>) {
   add_all(text, "means of ", name_of<First>());
   (add_all(text, " & ", name_of<Others>()), ...);
   add_color<First>(text);
 }
 
-template <class Part>
-void add_part(std::string& text) {
+template <class Part, class Text>
+constexpr void add_part(Text& text) {
   using Grid = typename Part::Grid;
   if constexpr (Part::weight_cells > 0) {
     add_means(text, typename Part::Averaged{});
@@ -104,35 +124,21 @@ void add_part(std::string& text) {
   FinishText<typename Part::Finish>::add_to(text);
 }
 
-template <class Voting, class... Parts>
-[[nodiscard]] std::string layout_text(const Descriptor<Voting, Parts...>*) {
-  std::string text;
+/// What D's values mean: see layout_of().
+template <class Text, class Voting, class... Parts>
+constexpr void add_layout(Text& text, const Descriptor<Voting, Parts...>*) {
   add_all(text, name_of<Voting>(), ", ", name_of<typename Descriptor<Voting, Parts...>::Cells>());
   const char* separator = ": ";
   ((add(text, separator), add_part<Parts>(text), separator = " | "), ...);
-  return text;
 }
+
+/// A text as a number: its 64-bit FNV-1a.
+struct LayoutNumber {
+  std::uint64_t value = 0xCBF29CE484222325u;
+  constexpr void add(const char* piece) noexcept {
+    for (; *piece != '\0'; ++piece) value = (value ^ static_cast<unsigned char>(*piece)) * 0x100000001B3u;
+  }
+};
 
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// What the values of descriptor D mean and how they are laid out, in English and in ASCII: its voting rule, its cell
-/// convention, and for each part its signal, histogram bins, color conversion, grid (radius x elevation x azimuth) and
-/// radius scale. SCSH-336:
-///
-///     published voting, published cells: occupancy 3x4x8 equal shells | color distance 15 bins (published Lab) 2x2x4
-///     equal shells
-///
-/// (in one line). Two types with the same text have values that can be compared; two that differ in anything named here
-/// have different texts. What is no part of D is not in it: the radii, and how frames were turned. A policy of your own
-/// needs a `name` as those of the library have, which says everything about it, parameters included. Allocates.
-template <class D>
-[[nodiscard]] std::string layout_of() {
-  return detail::layout_text(static_cast<const D*>(nullptr));
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot

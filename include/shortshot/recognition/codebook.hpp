@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "../base/math.hpp"
-#include "../base/unfused.hpp"
 #include "../cloud/cloud.hpp"
 #include "../cloud/keypoint.hpp"
 #include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../frame/frame.hpp"
+#include "../frame/local_point.hpp"
 #include "../status.hpp"
 #include "descriptor_rows.hpp"
 #include "match.hpp"
@@ -82,18 +82,6 @@ template <class Rows>
     status = is_finite(rows.keypoints[row].position) ? validate(rows.frames[row]) : Status::invalid_keypoint;
   }
   return status;
-}
-
-/// A point in a frame's coordinates, and back.
-[[nodiscard]] inline Point to_local(const Point& p, const Point& origin, const Frame& frame) noexcept {
-  const float offset[3] = {p.x - origin.x, p.y - origin.y, p.z - origin.z};
-  return {dot(frame.x, offset), dot(frame.y, offset), dot(frame.z, offset)};
-}
-[[nodiscard]] inline Point from_local(const Point& p, const Point& origin, const Frame& frame) noexcept {
-  const auto component = [&](int k) {
-    return (unfused(p.x * frame.x[k]) + unfused(p.y * frame.y[k])) + unfused(p.z * frame.z[k]);
-  };
-  return {origin.x + component(0), origin.y + component(1), origin.z + component(2)};
 }
 
 /// The codewords as rows that can be compared with these, which are of the same layout.

@@ -1,7 +1,4 @@
-// shortshot/recognition/mean_shift.hpp: the maxima of a density of votes in space. Hosted only: allocates.
-//
-// After D. Comaniciu, P. Meer: Mean shift: A robust approach toward feature space analysis (PAMI 24, 2002), with a
-// Gaussian kernel.
+// shortshot/recognition/mean_shift.hpp: the maxima of a density of many votes in space. Hosted only: allocates.
 #pragma once
 
 #include <cstddef>
@@ -9,18 +6,14 @@
 #include "../cloud/cloud.hpp"
 #include "../cloud/read.hpp"
 #include "../config.hpp"
+#include "climb.hpp"
 #include "vote_cells.hpp"
 #include "vote_centers.hpp"
+#include "vote_centers_list.hpp"
 #include "vote_density.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
-
-/// A place and how dense votes are there.
-struct Peak {
-  Point at;
-  float density;
-};
 
 /// Climbs from votes (finite, borrowed, of one class) to the maxima of their density. The result is that of a look at
 /// all votes for each step, bit for bit. Only constructors allocate; see VoteCells.
@@ -48,17 +41,7 @@ class MeanShift {
   /// The maximum where the mean shift from a vote ends, after 100 steps at the most. Cheapest where the last climb with
   /// the same memory, since this was made, began or ended close by.
   [[nodiscard]] Peak climb(const Vote& vote, Memory& memory) const noexcept {
-    const float still_d2 = still * still * density_.bandwidth() * density_.bandwidth();
-    Peak peak{vote.center, 0.0f};
-    Point at = vote.center;
-    for (int step = 0; step < most_steps; ++step) {
-      const VoteDensity::Sums sums = density_.at(at, reachable(at, memory));
-      if (!(sums.density > peak.density)) break;  // it grows, but for rounding, from the 1 of the vote itself
-      peak = {at, sums.density};
-      at = {at.x + sums.shift.x / sums.density, at.y + sums.shift.y / sums.density, at.z + sums.shift.z / sums.density};
-      if (!(squared_distance(at, peak.at) > still_d2)) break;
-    }
-    return peak;
+    return detail::climb(density_, vote.center, [&](const Point& at) { return reachable(at, memory); });
   }
 
   /// The votes' indices, those that are close to each other one after the other.
@@ -68,8 +51,6 @@ class MeanShift {
   }
 
  private:
-  static constexpr float still = 1e-3f;  // a shift that ends the climb, in bandwidths
-  static constexpr int most_steps = 100;
   static constexpr float margin = 0.75f;  // how far from its middle a list of what is close is good, in bandwidths
   static constexpr float close = 1.001f * (VoteDensity::reach + margin);
 

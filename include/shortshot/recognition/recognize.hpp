@@ -17,29 +17,17 @@
 #include "../cloud/cloud.hpp"
 #include "../cloud/read.hpp"
 #include "../config.hpp"
-#include "../descriptor/layout_text.hpp"
+#include "../descriptor/layout_of.hpp"
 #include "../kernel/describe_at.hpp"
 #include "../status.hpp"
 #include "codebook.hpp"
 #include "descriptor_rows.hpp"
+#include "hypothesis.hpp"
 #include "match.hpp"
 #include "mean_shift.hpp"
 #include "recognizer.hpp"
 #include "vote_centers.hpp"
 #include "vote_density.hpp"
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// ok or bad_option.
-[[nodiscard]] inline Status validate(const RecognizerOptions& options) noexcept {
-  const bool usable = options.bandwidth >= 1e-6f && options.bandwidth <= 1e6f && options.neighbors >= 1 &&
-                      options.neighbors <= 1024 && options.most >= 1;
-  return usable ? Status::ok : Status::bad_option;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -147,11 +135,7 @@ inline void choose(const Recognizer& recognizer, const std::vector<Vote>& votes,
     if (out.size() == recognizer.options().most) break;
     const std::uint32_t object_class = votes[i].object_class;
     const Point& at = peaks[i].at;
-    const bool is_known = std::any_of(out.begin(), out.end(), [&](const Hypothesis& denser) {
-      return denser.object_class == object_class &&
-             squared_distance(denser.center, at) <= unfused(bandwidth * bandwidth);
-    });
-    if (is_known) continue;
+    if (is_known(out.data(), out.size(), object_class, at, bandwidth)) continue;
     out.push_back({object_class, heaviest_instance(recognizer, votes, object_class, at), at, peaks[i].density});
   }
 }

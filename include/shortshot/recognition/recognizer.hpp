@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "../cloud/cloud.hpp"
 #include "../config.hpp"
 #include "codebook.hpp"
+#include "hypothesis.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_TYPES {
@@ -26,20 +26,6 @@ struct RecognizerAccess;
 
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
-
-struct RecognizerOptions {
-  float bandwidth = 0.03f;      ///< h of the density of votes, 1e-6 to 1e6 meters: about how far votes miss the center
-  std::uint32_t neighbors = 1;  ///< nearest codewords that each descriptor activates, 1 to 1024
-  std::uint32_t most = 8;       ///< hypotheses at the most, from 1 on
-};
-
-/// An object that may be there; see Recognizer::class_name() and instance_name() for the numbers. Trivial type.
-struct Hypothesis {
-  std::uint32_t object_class;
-  std::uint32_t instance;
-  Point center;  ///< where that of the training views is in this view
-  float score;   ///< density of the class' votes there: 1 for each that hits it, exp(-d^2 / (2 h^2)) if d meters off
-};
 
 /// The share that each class, and each instance, has in the codewords that were activated: 0 to 1, all of them 1
 /// together, or all zero if none was.

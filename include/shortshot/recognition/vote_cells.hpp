@@ -12,6 +12,7 @@
 #include "../cloud/cloud.hpp"
 #include "../config.hpp"
 #include "vote_centers.hpp"
+#include "vote_centers_list.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {

@@ -4,10 +4,7 @@
 //
 //     8 characters that say what it is, 4 bytes format version
 //     what is saved
-//     8 bytes checksum (64-bit FNV-1a) of all bytes before it
-//
-// FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
-// does once in 2^64 times. It is no protection from who means harm; nobody believes a number because of it.
+//     8 bytes checksum of all bytes before it
 #pragma once
 
 #include <cstddef>
@@ -20,17 +17,10 @@
 #include "../cloud/cloud.hpp"
 #include "../config.hpp"
 #include "../status.hpp"
+#include "checksum.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
-
-inline constexpr std::size_t checksum_bytes = 8;
-
-[[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size) noexcept {
-  std::uint64_t hash = 0xCBF29CE484222325u;
-  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001B3u;
-  return hash;
-}
 
 /// What a file is: its first characters, and the version of the format.
 struct FileKind {
@@ -64,6 +54,10 @@ class ByteWriter {
   void point(const Point& p) {
     const float values[3] = {p.x, p.y, p.z};
     reals(values, 3);
+  }
+  /// Zeros up to a place.
+  void pad(std::size_t place) {
+    while (bytes_.size() < place) number(std::uint8_t{0});
   }
   void name(std::string_view text) {
     count(text.size());

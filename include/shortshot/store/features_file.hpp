@@ -26,7 +26,7 @@
 #include "../batch/features.hpp"
 #include "../cloud/keypoint.hpp"
 #include "../config.hpp"
-#include "../descriptor/layout_text.hpp"
+#include "../descriptor/layout_of.hpp"
 #include "../status.hpp"
 #include "byte_stream.hpp"
 #include "replace_file.hpp"

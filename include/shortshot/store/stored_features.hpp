@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -14,13 +13,10 @@
 #include "../batch/features.hpp"
 #include "../cloud/cloud.hpp"
 #include "../config.hpp"
-#include "../descriptor/layout_text.hpp"
+#include "../descriptor/layout_of.hpp"
 #include "../status.hpp"
-#include "binary.hpp"
-#include "coded.hpp"
 #include "features_file.hpp"
-#include "half.hpp"
-#include "sum_bits.hpp"
+#include "storage.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
@@ -45,43 +41,6 @@ struct StoredFeatures {
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// The descriptor that a storage is of, what its rows are made of in files, how it is said, and how it is made.
-template <class Stored>
-struct Storage;
-template <class D>
-struct Storage<HalfDescriptor<D>> {
-  using Descriptor = D;
-  using Value = std::uint16_t;
-  [[nodiscard]] static std::string name() { return "halves"; }
-  static void make(const float* values, HalfDescriptor<D>& out) noexcept { quantize(values, out); }
-};
-template <class D, int Bits, int Scale>
-struct Storage<CodedDescriptor<D, Bits, Scale>> {
-  using Descriptor = D;
-  using Value = std::uint8_t;
-  [[nodiscard]] static std::string name() {
-    return "codes of " + std::to_string(Bits) + " bits, steps of 1/" + std::to_string(Scale);
-  }
-  static void make(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept { quantize(values, out); }
-};
-template <class D, int Group>
-struct Storage<BinaryDescriptor<D, Group>> {
-  using Descriptor = D;
-  using Value = std::uint8_t;
-  [[nodiscard]] static std::string name() { return "bits of groups of " + std::to_string(Group); }
-  static void make(const float* values, BinaryDescriptor<D, Group>& out) noexcept { binarize(values, out); }
-};
-template <class D, int Bits, int Draws>
-struct Storage<SumBits<D, Bits, Draws>> {
-  using Descriptor = D;
-  using Value = std::uint8_t;
-  [[nodiscard]] static std::string name() {
-    return std::to_string(Bits) + " bits of sums of " + std::to_string(Draws) + ", steps of 1/" +
-           std::to_string(code_scale<D, 4>);
-  }
-  static void make(const float* values, SumBits<D, Bits, Draws>& out) noexcept { binarize(values, out); }
-};
-
 /// Descriptors as the numbers that they are made of.
 template <class Stored>
 inline constexpr std::size_t stored_values = sizeof(Stored) / sizeof(typename Storage<Stored>::Value);
@@ -96,7 +55,9 @@ inline namespace SHORTSHOT_CODE {
 /// files, or two rows, must have in common. Allocates.
 template <class Stored>
 [[nodiscard]] std::string storage_layout() {
-  return layout_of<typename detail::Storage<Stored>::Descriptor>() + " in " + detail::Storage<Stored>::name();
+  detail::StringText text;
+  detail::add_storage_layout<Stored>(text);
+  return text.string;
 }
 
 /// Features in a storage. Rows whose status is not ok are of zeros. ok or bad_rows (vectors that are not as long as

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "synthetic_objects.hpp"
+#include "stored_views.hpp"
 
 namespace test_recognize_stored {
 namespace {
@@ -16,48 +16,15 @@ using ss::Status;
 
 using D = ss::ShapeColor32;
 
-/// Key points with random frames and descriptors of D, seen after a motion, with a little noise in the descriptors.
-ss::Features<D> view_of(std::uint32_t object, const Motion& motion, std::uint32_t noise_seed) {
-  Random random(object), noise(noise_seed);
-  ss::Features<D> features;
-  for (std::size_t i = 0; i < 12; ++i) {
-    for (int v = 0; v < D::size; ++v) {
-      features.values.push_back(random.between(-0.15f, 0.3f) + noise.between(-0.01f, 0.01f));
-    }
-    ss::KeyPoint key{};
-    key.position =
-        motion(ss::Point{random.between(-0.1f, 0.1f), random.between(-0.1f, 0.1f), random.between(-0.1f, 0.1f)});
-    const Motion turn = random_motion(random);
-    ss::Frame frame;
-    for (int k = 0; k < 3; ++k) {
-      frame.x[k] = turn.rotation[0][k];
-      frame.y[k] = turn.rotation[1][k];
-      frame.z[k] = turn.rotation[2][k];
-    }
-    features.status.push_back(i == 3 ? Status::ambiguous_frame : Status::ok);
-    features.keypoints.push_back(key);
-    features.frames.push_back(motion(frame));
-    features.frame_confidence.push_back({});
-    features.neighbors.push_back(10);
-  }
-  return features;
-}
-
-template <class Stored>
-ss::StoredFeatures<Stored> stored(const ss::Features<D>& features) {
-  ss::StoredFeatures<Stored> out;
-  REQUIRE(ss::store(features, out) == Status::ok);
-  return out;
-}
-
 template <class Stored>
 void check_recognizer() {
   Random random(5);
   const Motion motion = random_motion(random);
   ss::Recognizer recognizer({0.03f, 2, 4});
-  REQUIRE(ss::train(recognizer, stored<Stored>(view_of(1, no_motion, 1)), {0.0f, 0.0f, 0.0f}, "mug", "red") ==
+  REQUIRE(ss::train(recognizer, stored<Stored>(view_of<D>(1, no_motion, 1)), {0.0f, 0.0f, 0.0f}, "mug", "red") ==
           Status::ok);
-  REQUIRE(ss::train(recognizer, stored<Stored>(view_of(2, no_motion, 2)), {0.1f, 0.0f, 0.0f}, "cup", "") == Status::ok);
+  REQUIRE(ss::train(recognizer, stored<Stored>(view_of<D>(2, no_motion, 2)), {0.1f, 0.0f, 0.0f}, "cup", "") ==
+          Status::ok);
   CHECK((recognizer.codeword_count() == 22 && recognizer.layout() == ss::storage_layout<Stored>()));
 
   std::vector<std::uint8_t> bytes;
@@ -69,7 +36,7 @@ void check_recognizer() {
     REQUIRE(ss::load(bytes.data(), cut, ss::storage_layout<Stored>(), loaded) != Status::ok);
   }
 
-  const auto query = stored<Stored>(view_of(2, motion, 3));
+  const auto query = stored<Stored>(view_of<D>(2, motion, 3));
   for (const ss::Recognizer* const one : {&recognizer, &loaded}) {
     std::vector<ss::Hypothesis> found;
     REQUIRE(ss::recognize(*one, query, found, 2u) == Status::ok);
@@ -83,7 +50,7 @@ void check_recognizer() {
   }
 
   std::vector<ss::Hypothesis> found(3);
-  CHECK(ss::recognize(recognizer, view_of(2, motion, 3), found) == Status::other_descriptor);  // floats
+  CHECK(ss::recognize(recognizer, view_of<D>(2, motion, 3), found) == Status::other_descriptor);  // floats
   CHECK(found.empty());
   auto broken = query;
   broken.frames.pop_back();
@@ -93,7 +60,7 @@ void check_recognizer() {
   broken.frames[0].x[0] = not_a_number;
   CHECK(ss::recognize(recognizer, broken, found) == Status::bad_frame);
   ss::Recognizer of_floats;
-  REQUIRE(ss::train(of_floats, view_of(1, no_motion, 1), {0.0f, 0.0f, 0.0f}, "mug", "red") == Status::ok);
+  REQUIRE(ss::train(of_floats, view_of<D>(1, no_motion, 1), {0.0f, 0.0f, 0.0f}, "mug", "red") == Status::ok);
   CHECK(ss::train(of_floats, query, {0.0f, 0.0f, 0.0f}, "mug", "red") == Status::other_descriptor);
 }
 
@@ -109,8 +76,8 @@ TEST_CASE("recognizer: nibbles find what the floats find that they stand for") {
   using Stored = ss::NibbleDescriptor<D>;
   ss::Recognizer of_nibbles({0.05f, 3, 6}), of_floats({0.05f, 3, 6});
   const auto train_both = [&](std::uint32_t object, const char* name) {
-    const auto nibbles = stored<Stored>(view_of(object, no_motion, object));
-    ss::Features<D> floats = view_of(object, no_motion, object);
+    const auto nibbles = stored<Stored>(view_of<D>(object, no_motion, object));
+    ss::Features<D> floats = view_of<D>(object, no_motion, object);
     for (std::size_t i = 0; i < nibbles.size(); ++i) {
       ss::dequantize(nibbles.descriptors[i], floats.values.data() + i * std::size_t{D::size});
     }
@@ -122,8 +89,8 @@ TEST_CASE("recognizer: nibbles find what the floats find that they stand for") {
   train_both(3, "c");
   Random random(8);
   const Motion motion = random_motion(random);
-  const auto query = stored<Stored>(view_of(2, motion, 9));
-  ss::Features<D> floats = view_of(2, motion, 9);
+  const auto query = stored<Stored>(view_of<D>(2, motion, 9));
+  ss::Features<D> floats = view_of<D>(2, motion, 9);
   for (std::size_t i = 0; i < query.size(); ++i) {
     ss::dequantize(query.descriptors[i], floats.values.data() + i * std::size_t{D::size});
   }

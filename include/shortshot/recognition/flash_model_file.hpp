@@ -1,0 +1,174 @@
+// shortshot/recognition/flash_model_file.hpp: models for flash: written, as bytes or as a C++ header, and read back.
+// Hosted only: allocates.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "../base/math.hpp"
+#include "../config.hpp"
+#include "../status.hpp"
+#include "../store/byte_stream.hpp"
+#include "codebook.hpp"
+#include "flash_model.hpp"
+#include "hypothesis.hpp"
+#include "recognizer.hpp"
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline constexpr FileKind flash_model_file{{flash_model_magic, 8}, flash_model_version};
+
+/// storage_number of a storage_layout.
+[[nodiscard]] inline std::uint64_t storage_number_of(const std::string& layout) noexcept {
+  LayoutNumber number;
+  number.add(layout.c_str());
+  return number.value;
+}
+
+/// The smallest power of two of which 16 bits reach all centers; at least 2^-100.
+[[nodiscard]] inline float unit_of_centers(const std::vector<Codebook::Codeword>& codewords) noexcept {
+  float farthest = 0.0f;
+  for (const Codebook::Codeword& codeword : codewords) {
+    for (const float c : {codeword.center.x, codeword.center.y, codeword.center.z})
+      farthest = std::max(farthest, std::abs(c));
+  }
+  float unit = std::ldexp(1.0f, -99);
+  while (32767.0f * unit < farthest && unit < 1e29f) unit *= 2.0f;
+  return unit;
+}
+
+/// In whole units, to the nearest.
+[[nodiscard]] inline std::uint16_t units_of(float coordinate, float unit) noexcept {
+  const float units = std::nearbyint(coordinate / unit);
+  return static_cast<std::uint16_t>(static_cast<std::int16_t>(std::max(-32767.0f, std::min(units, 32767.0f))));
+}
+
+[[nodiscard]] inline bool fits_flash(const Codebook& codebook) noexcept {
+  const auto has_zero = [](const std::string& text) { return text.find(char{0}) != std::string::npos; };
+  for (const std::vector<std::string>* const names : {&codebook.classes, &codebook.instances}) {
+    if (names->size() > 65536) return false;
+    for (const std::string& name : *names) {
+      if (has_zero(name)) return false;
+    }
+  }
+  return !has_zero(codebook.layout);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// A trained recognizer of descriptors in a storage of bytes (StoredFeatures of codes or bits), as ModelView reads it:
+/// one byte sequence, the same on every machine (see flash_model.hpp). A codeword takes its descriptor and 8 bytes: its
+/// center is kept in 16 bits a coordinate, in steps of at most a 32,000th of how far the farthest center lies from its
+/// key point.
+///
+/// Statuses: not_trained, bad_option, other_descriptor (a recognizer of floats or halves), bad_rows (2^32 bytes or
+/// more, more than 65536 names of a kind, a name with a character 0, a center farther away than 1e33 m); `bytes` is
+/// empty then. Allocates the bytes.
+[[nodiscard]] inline Status save_for_flash(const Recognizer& recognizer, std::vector<std::uint8_t>& bytes) {
+  const detail::Codebook& codebook = detail::RecognizerAccess::codebook(recognizer);
+  bytes.clear();
+  if (codebook.codewords.empty()) return Status::not_trained;
+  if (validate(recognizer.options()) != Status::ok) return Status::bad_option;
+  if (codebook.packed.empty()) return Status::other_descriptor;
+  if (!detail::fits_flash(codebook)) return Status::bad_rows;
+  const float unit = detail::unit_of_centers(codebook.codewords);
+  if (unit > 1e29f) return Status::bad_rows;
+
+  std::string text = codebook.layout + char{0};
+  for (const std::string& name : codebook.classes) text += name + char{0};
+  for (const std::string& name : codebook.instances) text += name + char{0};
+  const std::uint64_t most = 0xFFFFFFFFu;
+  if (codebook.codewords.size() > most || text.size() > most) return Status::bad_rows;
+  const auto row_bytes = static_cast<std::uint32_t>(codebook.row_size);
+  const auto codewords = static_cast<std::uint32_t>(codebook.codewords.size());
+  const auto instances = static_cast<std::uint32_t>(codebook.instances.size());
+  const detail::FlashLayout layout(row_bytes, codewords, instances, static_cast<std::uint32_t>(text.size()));
+  const std::uint64_t size_bytes = layout.checksum + detail::checksum_bytes;
+  if (size_bytes > most) return Status::bad_rows;
+
+  detail::ByteWriter to(bytes, detail::flash_model_file, static_cast<std::size_t>(size_bytes));
+  to.number(static_cast<std::uint32_t>(size_bytes));
+  to.number(detail::storage_number_of(codebook.layout));
+  to.real(recognizer.options().bandwidth);
+  to.number(recognizer.options().neighbors);
+  to.number(recognizer.options().most);
+  to.number(row_bytes);
+  to.number(codewords);
+  to.number(instances);
+  to.number(static_cast<std::uint32_t>(codebook.classes.size()));
+  to.number(static_cast<std::uint32_t>(text.size()));
+  to.real(unit);
+  for (const std::uint32_t object_class : codebook.class_of) to.number(static_cast<std::uint16_t>(object_class));
+  to.pad(static_cast<std::size_t>(layout.codewords));
+  for (const detail::Codebook::Codeword& codeword : codebook.codewords) {
+    to.number(static_cast<std::uint16_t>(codeword.instance));
+    to.number(detail::units_of(codeword.center.x, unit));
+    to.number(detail::units_of(codeword.center.y, unit));
+    to.number(detail::units_of(codeword.center.z, unit));
+  }
+  for (const std::uint8_t byte : codebook.packed) to.number(byte);
+  for (const char c : text) to.number(static_cast<std::uint8_t>(c));
+  to.pad(static_cast<std::size_t>(layout.checksum));
+  to.finish();
+  return Status::ok;
+}
+
+/// The recognizer that gives the hypotheses that a MicroRecognizer gives with the model, bit for bit: of its codewords,
+/// with centers as they were rounded. For descriptors of a storage_layout<Stored>().
+///
+/// Statuses: not_a_model, other_version, damaged_model, other_descriptor; `out` has not changed then. Allocates a few
+/// times the bytes at the most.
+[[nodiscard]] inline Status load_from_flash(const std::uint8_t* bytes, std::size_t size_bytes, std::string_view layout,
+                                            Recognizer& out) {
+  detail::FlashModel model;
+  const Status status = model.open(bytes, size_bytes);
+  if (status != Status::ok) return status;
+  if (model.text(0) != layout || model.storage() != detail::storage_number_of(std::string(layout)))
+    return Status::other_descriptor;
+  Recognizer loaded(model.options());
+  detail::Codebook& codebook = detail::RecognizerAccess::codebook(loaded);
+  codebook.layout = layout;
+  codebook.row_size = model.row_bytes();
+  for (std::uint32_t i = 0; i < model.class_count(); ++i) codebook.classes.emplace_back(model.text(1 + i));
+  for (std::uint32_t i = 0; i < model.instance_count(); ++i) {
+    codebook.instances.emplace_back(model.text(1 + model.class_count() + i));
+    codebook.class_of.push_back(model.class_of(i));
+  }
+  for (std::uint32_t i = 0; i < model.codeword_count(); ++i) {
+    codebook.codewords.push_back({model.instance_of(i), model.center_of(i)});
+  }
+  codebook.packed.assign(model.row(0), model.row(model.codeword_count()));
+  out = std::move(loaded);
+  return Status::ok;
+}
+
+/// The bytes of a model as a C++ header: `alignas(4) constexpr unsigned char NAME[] = {...};`. `name` is a C++
+/// identifier. Allocates some four times the bytes.
+[[nodiscard]] inline std::string flash_model_header(const std::vector<std::uint8_t>& bytes, std::string_view name) {
+  std::string text =
+      "// A model for shortshot::ModelView, by save_for_flash().\n#pragma once\n\nalignas(4) inline constexpr unsigned "
+      "char ";
+  text += name;
+  text += "[] = {";
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    text += i % 24 == 0 ? "\n    " : " ";
+    text += std::to_string(bytes[i]);
+    text += ',';
+  }
+  text += "\n};\n";
+  return text;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot

@@ -1,0 +1,24 @@
+// shortshot/store/checksum.hpp: by which damage is noticed: 64-bit FNV-1a.
+//
+// FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
+// does once in 2^64 times. It is no protection from who means harm; nobody believes a number because of it.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "../config.hpp"
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline constexpr std::size_t checksum_bytes = 8;
+
+[[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size) noexcept {
+  std::uint64_t hash = 0xCBF29CE484222325u;
+  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001B3u;
+  return hash;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail

@@ -1,0 +1,92 @@
+// shortshot/store/storage.hpp: what the storages of a descriptor have in common: how they are made, and what they are
+// called.
+#pragma once
+
+#include <cstdint>
+
+#include "../config.hpp"
+#include "../descriptor/layout_text.hpp"
+#include "binary.hpp"
+#include "code_scale.hpp"
+#include "coded.hpp"
+#include "half.hpp"
+#include "sum_bits.hpp"
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// The descriptor that a storage is of, what its rows are made of in files, how it is said, how it is made,
+/// and how far two of them are apart in whole numbers (halves are not).
+template <class Stored>
+struct Storage;
+template <class D>
+struct Storage<HalfDescriptor<D>> {
+  using Descriptor = D;
+  using Value = std::uint16_t;
+  template <class Text>
+  static constexpr void add_name(Text& text) {
+    add(text, "halves");
+  }
+  static void make(const float* values, HalfDescriptor<D>& out) noexcept { quantize(values, out); }
+};
+template <class D, int Bits, int Scale>
+struct Storage<CodedDescriptor<D, Bits, Scale>> {
+  using Descriptor = D;
+  using Value = std::uint8_t;
+  template <class Text>
+  static constexpr void add_name(Text& text) {
+    add_all(text, "codes of ", Bits, " bits, steps of 1/", Scale);
+  }
+  static void make(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept { quantize(values, out); }
+  [[nodiscard]] static std::uint32_t distance(const CodedDescriptor<D, Bits, Scale>& a,
+                                              const CodedDescriptor<D, Bits, Scale>& b) noexcept {
+    return squared_distance(a, b);
+  }
+};
+template <class D, int Group>
+struct Storage<BinaryDescriptor<D, Group>> {
+  using Descriptor = D;
+  using Value = std::uint8_t;
+  template <class Text>
+  static constexpr void add_name(Text& text) {
+    add_all(text, "bits of groups of ", Group);
+  }
+  static void make(const float* values, BinaryDescriptor<D, Group>& out) noexcept { binarize(values, out); }
+  [[nodiscard]] static std::uint32_t distance(const BinaryDescriptor<D, Group>& a,
+                                              const BinaryDescriptor<D, Group>& b) noexcept {
+    return static_cast<std::uint32_t>(hamming_distance(a, b));
+  }
+};
+template <class D, int Bits, int Draws>
+struct Storage<SumBits<D, Bits, Draws>> {
+  using Descriptor = D;
+  using Value = std::uint8_t;
+  template <class Text>
+  static constexpr void add_name(Text& text) {
+    add_all(text, Bits, " bits of sums of ", Draws, ", steps of 1/", code_scale<D, 4>);
+  }
+  static void make(const float* values, SumBits<D, Bits, Draws>& out) noexcept { binarize(values, out); }
+  [[nodiscard]] static std::uint32_t distance(const SumBits<D, Bits, Draws>& a,
+                                              const SumBits<D, Bits, Draws>& b) noexcept {
+    return static_cast<std::uint32_t>(hamming_distance(a, b));
+  }
+};
+
+/// The descriptor's layout, and how it is stored: see storage_layout().
+template <class Stored, class Text>
+constexpr void add_storage_layout(Text& text) {
+  add_layout(text, static_cast<const typename Storage<Stored>::Descriptor*>(nullptr));
+  add(text, " in ");
+  Storage<Stored>::add_name(text);
+}
+
+/// storage_layout() as a number, for where there are no strings.
+template <class Stored>
+inline constexpr std::uint64_t storage_number = [] {
+  LayoutNumber text;
+  add_storage_layout<Stored>(text);
+  return text.value;
+}();
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
