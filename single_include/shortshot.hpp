@@ -8418,6 +8418,87 @@ struct LayoutNumber {
 #ifndef SHORTSHOT_STORE_BINARY_HPP
 #define SHORTSHOT_STORE_BINARY_HPP
 
+// shortshot/store/hamming.hpp: the number of bits in which rows of bytes differ.
+#ifndef SHORTSHOT_STORE_HAMMING_HPP
+#define SHORTSHOT_STORE_HAMMING_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Ones in a word. __builtin_popcount is a call to the compiler's library where the CPU has no instruction for it.
+[[nodiscard, gnu::always_inline]] inline int count_ones(std::size_t word) noexcept {
+#if defined(__POPCNT__) || defined(__aarch64__)
+  return __builtin_popcountll(word);
+#else
+  constexpr std::size_t every = ~std::size_t{0};
+  word -= word >> 1 & every / 3;                                             // counts of two bits each,
+  word = (word & every / 5) + (word >> 2 & every / 5);                       // of four,
+  word = (word + (word >> 4)) & every / 17;                                  // of eight;
+  return static_cast<int>(word * (every / 255) >> (8 * (sizeof word - 1)));  // and their sum
+#endif
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// Number of bits that differ (0 to 8 * size_bytes) in two arrays of `size_bytes` bytes of any alignment. No
+/// allocation, no error, reentrant. Always in line: a copy compiled with the instruction for counting ones must not
+/// serve a translation unit compiled without.
+[[nodiscard, gnu::always_inline]] inline int hamming_distance(const std::uint8_t* a, const std::uint8_t* b,
+                                                              std::size_t size_bytes) noexcept {
+  using Word = std::size_t;
+  int distance = 0;
+  const auto add = [&](std::size_t i, std::size_t length) {
+    Word of_a = 0, of_b = 0;
+    std::memcpy(&of_a, a + i, length);
+    std::memcpy(&of_b, b + i, length);
+    distance += detail::count_ones(of_a ^ of_b);
+  };
+  const std::size_t rest = size_bytes % sizeof(Word);
+  for (std::size_t i = 0; i < size_bytes - rest; i += sizeof(Word)) add(i, sizeof(Word));
+  if (rest != 0) add(size_bytes - rest, rest);
+  return distance;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// The number of bits in which rows differ, if that is below the limit; else a number that is not. Two words at a
+/// time, whose ones are added up before they are counted to the end: then it is known whether going on is of use.
+[[nodiscard]] inline std::uint32_t hamming_distance_below(const std::uint8_t* a, const std::uint8_t* b,
+                                                          std::size_t size_bytes, std::uint32_t limit) noexcept {
+  using Word = std::size_t;
+  constexpr Word every = ~Word{0};
+  constexpr std::size_t words = 2;
+  std::uint32_t distance = 0;
+  std::size_t i = 0;
+  for (; i + words * sizeof(Word) <= size_bytes; i += words * sizeof(Word)) {
+    Word ones = 0;  // of four bits each,
+    for (std::size_t w = 0; w < words; ++w) {
+      Word of_a, of_b;
+      std::memcpy(&of_a, a + i + w * sizeof(Word), sizeof(Word));
+      std::memcpy(&of_b, b + i + w * sizeof(Word), sizeof(Word));
+      Word word = of_a ^ of_b;
+      word -= word >> 1 & every / 3;
+      ones += (word & every / 5) + (word >> 2 & every / 5);
+    }
+    ones = (ones & every / 17) + (ones >> 4 & every / 17);                                    // of eight,
+    distance += static_cast<std::uint32_t>(ones * (every / 255) >> (8 * (sizeof ones - 1)));  // and their sum
+    if (distance >= limit) return distance;
+  }
+  return distance + static_cast<std::uint32_t>(hamming_distance(a + i, b + i, size_bytes - i));
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_HAMMING_HPP
+
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
 
@@ -8566,19 +8647,6 @@ inline void binarize_groups(const float* values, std::uint8_t* bytes) noexcept {
   });
 }
 
-/// Ones in a word. __builtin_popcount is a call to the compiler's library where the CPU has no instruction for it.
-[[nodiscard, gnu::always_inline]] inline int count_ones(std::size_t word) noexcept {
-#if defined(__POPCNT__) || defined(__aarch64__)
-  return __builtin_popcountll(word);
-#else
-  constexpr std::size_t every = ~std::size_t{0};
-  word -= word >> 1 & every / 3;                                             // counts of two bits each,
-  word = (word & every / 5) + (word >> 2 & every / 5);                       // of four,
-  word = (word + (word >> 4)) & every / 17;                                  // of eight;
-  return static_cast<int>(word * (every / 255) >> (8 * (sizeof word - 1)));  // and their sum
-#endif
-}
-
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 
@@ -8608,25 +8676,6 @@ void binarize(const float* values, BinaryDescriptor<D, Group>& out) noexcept {
     if constexpr (rest % 8 != 0) last_bytes[rest / 8] &= static_cast<std::uint8_t>((1u << rest % 8) - 1u);
     std::memcpy(to, last_bytes, (rest + 7) / 8);
   }
-}
-
-/// Number of bits that differ (0 to 8 * size_bytes) in two arrays of `size_bytes` bytes of any alignment. No
-/// allocation, no error, reentrant. Always in line: a copy compiled with the instruction for counting ones must not
-/// serve a translation unit compiled without.
-[[nodiscard, gnu::always_inline]] inline int hamming_distance(const std::uint8_t* a, const std::uint8_t* b,
-                                                              std::size_t size_bytes) noexcept {
-  using Word = std::size_t;
-  int distance = 0;
-  const auto add = [&](std::size_t i, std::size_t length) {
-    Word of_a = 0, of_b = 0;
-    std::memcpy(&of_a, a + i, length);
-    std::memcpy(&of_b, b + i, length);
-    distance += detail::count_ones(of_a ^ of_b);
-  };
-  const std::size_t rest = size_bytes % sizeof(Word);
-  for (std::size_t i = 0; i < size_bytes - rest; i += sizeof(Word)) add(i, sizeof(Word));
-  if (rest != 0) add(size_bytes - rest, rest);
-  return distance;
 }
 
 /// Number of bits in which two binary descriptors differ, 0 to D::size.
@@ -8812,6 +8861,17 @@ template <int Bits>
     sum += static_cast<std::uint32_t>(difference * difference);
   }
   return sum;
+}
+
+/// The same if it is below the limit; else a number that is not.
+template <int Bits>
+[[nodiscard]] inline std::uint32_t squared_code_distance_below(const std::uint8_t* a, const std::uint8_t* b,
+                                                               std::size_t size, std::uint32_t limit) noexcept {
+  constexpr std::size_t piece = 24;  // whole numbers
+  std::uint32_t sum = 0;
+  std::size_t i = 0;
+  for (; i + piece < size && sum < limit; i += piece) sum += squared_code_distance<Bits>(a + i, b + i, piece);
+  return sum < limit ? sum + squared_code_distance<Bits>(a + i, b + i, size - i) : sum;
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -9167,7 +9227,8 @@ namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
 /// The descriptor that a storage is of, what its rows are made of in files, how it is said, how it is made,
-/// and how far two of them are apart in whole numbers (halves are not).
+/// and how far two of them are apart in whole numbers, if that is below a limit; else any number that is not. (Halves
+/// are no whole numbers.)
 template <class Stored>
 struct Storage;
 template <class D>
@@ -9189,9 +9250,10 @@ struct Storage<CodedDescriptor<D, Bits, Scale>> {
     add_all(text, "codes of ", Bits, " bits, steps of 1/", Scale);
   }
   static void make(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept { quantize(values, out); }
-  [[nodiscard]] static std::uint32_t distance(const CodedDescriptor<D, Bits, Scale>& a,
-                                              const CodedDescriptor<D, Bits, Scale>& b) noexcept {
-    return squared_distance(a, b);
+  [[nodiscard]] static std::uint32_t distance_below(const CodedDescriptor<D, Bits, Scale>& a,
+                                                    const CodedDescriptor<D, Bits, Scale>& b,
+                                                    std::uint32_t limit) noexcept {
+    return squared_code_distance_below<Bits>(a.bytes, b.bytes, sizeof a.bytes, limit);
   }
 };
 template <class D, int Group>
@@ -9203,9 +9265,9 @@ struct Storage<BinaryDescriptor<D, Group>> {
     add_all(text, "bits of groups of ", Group);
   }
   static void make(const float* values, BinaryDescriptor<D, Group>& out) noexcept { binarize(values, out); }
-  [[nodiscard]] static std::uint32_t distance(const BinaryDescriptor<D, Group>& a,
-                                              const BinaryDescriptor<D, Group>& b) noexcept {
-    return static_cast<std::uint32_t>(hamming_distance(a, b));
+  [[nodiscard]] static std::uint32_t distance_below(const BinaryDescriptor<D, Group>& a,
+                                                    const BinaryDescriptor<D, Group>& b, std::uint32_t limit) noexcept {
+    return hamming_distance_below(a.bytes, b.bytes, sizeof a.bytes, limit);
   }
 };
 template <class D, int Bits, int Draws>
@@ -9217,9 +9279,9 @@ struct Storage<SumBits<D, Bits, Draws>> {
     add_all(text, Bits, " bits of sums of ", Draws, ", steps of 1/", code_scale<D, 4>);
   }
   static void make(const float* values, SumBits<D, Bits, Draws>& out) noexcept { binarize(values, out); }
-  [[nodiscard]] static std::uint32_t distance(const SumBits<D, Bits, Draws>& a,
-                                              const SumBits<D, Bits, Draws>& b) noexcept {
-    return static_cast<std::uint32_t>(hamming_distance(a, b));
+  [[nodiscard]] static std::uint32_t distance_below(const SumBits<D, Bits, Draws>& a, const SumBits<D, Bits, Draws>& b,
+                                                    std::uint32_t limit) noexcept {
+    return hamming_distance_below(a.bytes, b.bytes, sizeof a.bytes, limit);
   }
 };
 
@@ -9848,8 +9910,9 @@ class MicroRecognizer {
   std::size_t find_nearest(const Stored& stored, Activated (&nearest)[MaxActivated]) const noexcept {
     for (Activated& none : nearest) none = {0, 0xFFFFFFFFu};
     for (std::uint32_t codeword = 0; codeword < model_.codeword_count(); ++codeword) {
-      Activated next{codeword, detail::Storage<Stored>::distance(stored, model_.descriptor(codeword))};
-      if (!(next.distance < nearest[MaxActivated - 1].distance)) continue;
+      const std::uint32_t limit = nearest[MaxActivated - 1].distance;
+      Activated next{codeword, detail::Storage<Stored>::distance_below(stored, model_.descriptor(codeword), limit)};
+      if (!(next.distance < limit)) continue;
       bool is_nearer = false;  // and then all that come later make room
       for (Activated& known : nearest) {
         is_nearer = is_nearer || next.distance < known.distance;

@@ -21,7 +21,7 @@ if [ "$1" = --compile ]; then
     input_*)
       exec "$@" -ffp-contract=off -r -o "$program.o" \
         bench/tools/golden/case.cpp bench/tools/golden/array.cpp bench/tools/golden/known_arrays.cpp \
-        bench/tools/scene/tabletop.cpp
+        bench/tools/scene/tabletop.cpp bench/tools/scene/sensor.cpp bench/tools/scene/objects.cpp
       ;;
     *_neon) input=$directory/input_neon.o ;;
     *) input=$directory/input_x86.o ;;

@@ -42,7 +42,9 @@ class Builder {
       const std::string program = image.text("program");
       if (program == "size" && !image.text("configuration").empty()) add_size(image);
       if (program == "work") add_work(image);
-      if (program == "bits") add_bits(image);
+      if (program == "bits" || program == "recognition") add_bits(image);
+      if (program == "recognition") add_work(image);
+      if (program == "recognition_on_host") add_facts(image);
     }
     for (Row& row : measured_.rows) derive(row.figures);
     derive_further();
@@ -107,6 +109,11 @@ class Builder {
                                std::to_string(counts.size()) + " counts");
     }
     for (std::size_t i = 0; i < sections.size(); ++i) out["work_" + sections[i]] = whole_number(counts[i]);
+    add_facts(image);
+  }
+
+  void add_facts(const Facts& image) {
+    auto& out = figures(image, image.text("configuration"));
     for (const std::string& fact : image.all("fact")) {
       const std::size_t end = fact.find(' ');
       out[fact.substr(0, end)] = whole_number(fact.substr(end + 1));
@@ -116,11 +123,16 @@ class Builder {
   void add_bits(const Facts& image) {
     const std::vector<Hash> hashes = hashes_of(image);
     measured_.hashes.insert(measured_.hashes.end(), hashes.begin(), hashes.end());
-    measured_.compilers[image.text("target")] = image.text("compiler");
+    if (!image.text("compiler").empty()) measured_.compilers[image.text("target")] = image.text("compiler");
   }
 
   static void derive(std::map<std::string, double>& f) {
     const auto has = [&](const char* name) { return f.count(name) != 0; };
+    if (has("work_describe_and_match") && has("work_match")) {
+      f["work_describe"] = f["work_describe_and_match"] - f["work_match"];
+      f["work_view"] = f["work_index"] + f["work_describe_and_match"] + f["work_find"];
+    }
+    if (has("views") && has("work_view")) f["wrong_views"] = f["views"] - f["right"];
     if (has("flash_brute") && has("flash_grid")) f["flash_grid_extra"] = f["flash_grid"] - f["flash_brute"];
     for (const std::string kind : {"", "lab_"}) {
       const std::string less = "work_given_" + kind + "250";

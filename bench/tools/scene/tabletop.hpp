@@ -22,7 +22,7 @@ struct TabletopOptions {
 // alone, so two sizes show the same objects.
 //
 // The same options give the same bytes on every IEEE 754 platform: see the note at the top of
-// tabletop_solids.hpp.
+// solids.hpp.
 RgbdCloud make_tabletop(const TabletopOptions& options = {});
 
 }  // namespace shortshot_bench

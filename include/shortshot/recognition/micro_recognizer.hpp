@@ -158,8 +158,9 @@ class MicroRecognizer {
   std::size_t find_nearest(const Stored& stored, Activated (&nearest)[MaxActivated]) const noexcept {
     for (Activated& none : nearest) none = {0, 0xFFFFFFFFu};
     for (std::uint32_t codeword = 0; codeword < model_.codeword_count(); ++codeword) {
-      Activated next{codeword, detail::Storage<Stored>::distance(stored, model_.descriptor(codeword))};
-      if (!(next.distance < nearest[MaxActivated - 1].distance)) continue;
+      const std::uint32_t limit = nearest[MaxActivated - 1].distance;
+      Activated next{codeword, detail::Storage<Stored>::distance_below(stored, model_.descriptor(codeword), limit)};
+      if (!(next.distance < limit)) continue;
       bool is_nearer = false;  // and then all that come later make room
       for (Activated& known : nearest) {
         is_nearer = is_nearer || next.distance < known.distance;

@@ -12,6 +12,7 @@
 #include "../base/simd.hpp"
 #include "../base/unroll.hpp"
 #include "../config.hpp"
+#include "hamming.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
@@ -161,19 +162,6 @@ inline void binarize_groups(const float* values, std::uint8_t* bytes) noexcept {
   });
 }
 
-/// Ones in a word. __builtin_popcount is a call to the compiler's library where the CPU has no instruction for it.
-[[nodiscard, gnu::always_inline]] inline int count_ones(std::size_t word) noexcept {
-#if defined(__POPCNT__) || defined(__aarch64__)
-  return __builtin_popcountll(word);
-#else
-  constexpr std::size_t every = ~std::size_t{0};
-  word -= word >> 1 & every / 3;                                             // counts of two bits each,
-  word = (word & every / 5) + (word >> 2 & every / 5);                       // of four,
-  word = (word + (word >> 4)) & every / 17;                                  // of eight;
-  return static_cast<int>(word * (every / 255) >> (8 * (sizeof word - 1)));  // and their sum
-#endif
-}
-
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 
@@ -203,25 +191,6 @@ void binarize(const float* values, BinaryDescriptor<D, Group>& out) noexcept {
     if constexpr (rest % 8 != 0) last_bytes[rest / 8] &= static_cast<std::uint8_t>((1u << rest % 8) - 1u);
     std::memcpy(to, last_bytes, (rest + 7) / 8);
   }
-}
-
-/// Number of bits that differ (0 to 8 * size_bytes) in two arrays of `size_bytes` bytes of any alignment. No
-/// allocation, no error, reentrant. Always in line: a copy compiled with the instruction for counting ones must not
-/// serve a translation unit compiled without.
-[[nodiscard, gnu::always_inline]] inline int hamming_distance(const std::uint8_t* a, const std::uint8_t* b,
-                                                              std::size_t size_bytes) noexcept {
-  using Word = std::size_t;
-  int distance = 0;
-  const auto add = [&](std::size_t i, std::size_t length) {
-    Word of_a = 0, of_b = 0;
-    std::memcpy(&of_a, a + i, length);
-    std::memcpy(&of_b, b + i, length);
-    distance += detail::count_ones(of_a ^ of_b);
-  };
-  const std::size_t rest = size_bytes % sizeof(Word);
-  for (std::size_t i = 0; i < size_bytes - rest; i += sizeof(Word)) add(i, sizeof(Word));
-  if (rest != 0) add(size_bytes - rest, rest);
-  return distance;
 }
 
 /// Number of bits in which two binary descriptors differ, 0 to D::size.

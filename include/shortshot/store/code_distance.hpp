@@ -82,5 +82,16 @@ template <int Bits>
   return sum;
 }
 
+/// The same if it is below the limit; else a number that is not.
+template <int Bits>
+[[nodiscard]] inline std::uint32_t squared_code_distance_below(const std::uint8_t* a, const std::uint8_t* b,
+                                                               std::size_t size, std::uint32_t limit) noexcept {
+  constexpr std::size_t piece = 24;  // whole numbers
+  std::uint32_t sum = 0;
+  std::size_t i = 0;
+  for (; i + piece < size && sum < limit; i += piece) sum += squared_code_distance<Bits>(a + i, b + i, piece);
+  return sum < limit ? sum + squared_code_distance<Bits>(a + i, b + i, size - i) : sum;
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail

@@ -10,13 +10,15 @@
 #include "code_scale.hpp"
 #include "coded.hpp"
 #include "half.hpp"
+#include "hamming.hpp"
 #include "sum_bits.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
 /// The descriptor that a storage is of, what its rows are made of in files, how it is said, how it is made,
-/// and how far two of them are apart in whole numbers (halves are not).
+/// and how far two of them are apart in whole numbers, if that is below a limit; else any number that is not. (Halves
+/// are no whole numbers.)
 template <class Stored>
 struct Storage;
 template <class D>
@@ -38,9 +40,10 @@ struct Storage<CodedDescriptor<D, Bits, Scale>> {
     add_all(text, "codes of ", Bits, " bits, steps of 1/", Scale);
   }
   static void make(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept { quantize(values, out); }
-  [[nodiscard]] static std::uint32_t distance(const CodedDescriptor<D, Bits, Scale>& a,
-                                              const CodedDescriptor<D, Bits, Scale>& b) noexcept {
-    return squared_distance(a, b);
+  [[nodiscard]] static std::uint32_t distance_below(const CodedDescriptor<D, Bits, Scale>& a,
+                                                    const CodedDescriptor<D, Bits, Scale>& b,
+                                                    std::uint32_t limit) noexcept {
+    return squared_code_distance_below<Bits>(a.bytes, b.bytes, sizeof a.bytes, limit);
   }
 };
 template <class D, int Group>
@@ -52,9 +55,9 @@ struct Storage<BinaryDescriptor<D, Group>> {
     add_all(text, "bits of groups of ", Group);
   }
   static void make(const float* values, BinaryDescriptor<D, Group>& out) noexcept { binarize(values, out); }
-  [[nodiscard]] static std::uint32_t distance(const BinaryDescriptor<D, Group>& a,
-                                              const BinaryDescriptor<D, Group>& b) noexcept {
-    return static_cast<std::uint32_t>(hamming_distance(a, b));
+  [[nodiscard]] static std::uint32_t distance_below(const BinaryDescriptor<D, Group>& a,
+                                                    const BinaryDescriptor<D, Group>& b, std::uint32_t limit) noexcept {
+    return hamming_distance_below(a.bytes, b.bytes, sizeof a.bytes, limit);
   }
 };
 template <class D, int Bits, int Draws>
@@ -66,9 +69,9 @@ struct Storage<SumBits<D, Bits, Draws>> {
     add_all(text, Bits, " bits of sums of ", Draws, ", steps of 1/", code_scale<D, 4>);
   }
   static void make(const float* values, SumBits<D, Bits, Draws>& out) noexcept { binarize(values, out); }
-  [[nodiscard]] static std::uint32_t distance(const SumBits<D, Bits, Draws>& a,
-                                              const SumBits<D, Bits, Draws>& b) noexcept {
-    return static_cast<std::uint32_t>(hamming_distance(a, b));
+  [[nodiscard]] static std::uint32_t distance_below(const SumBits<D, Bits, Draws>& a, const SumBits<D, Bits, Draws>& b,
+                                                    std::uint32_t limit) noexcept {
+    return hamming_distance_below(a.bytes, b.bytes, sizeof a.bytes, limit);
   }
 };
 

@@ -1,5 +1,5 @@
-// Ray-cast building blocks of the tabletop scene: solids with analytic intersections, procedural textures.
-// Only tabletop.cpp needs them.
+// Ray-cast building blocks of generated scenes: solids with analytic intersections, procedural textures.
+// Only what is in this folder needs them.
 //
 // Determinism: equal options must give equal bytes on every compiler and optimization level. Hence
 // - no libm besides sqrt, floor and fabs, which IEEE 754 makes exact or correctly rounded: directions come
@@ -20,7 +20,7 @@
 #include "tools/scene/random.hpp"
 
 namespace shortshot_bench {
-namespace tabletop_detail {
+namespace scene_detail {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -203,5 +203,5 @@ inline Vec3 surface_color(const Solid& s, const Vec3& p, const Vec3& n) {
   return s.colors[index] * (0.88 + 0.24 * smooth_noise(q.u / 0.008, q.v / 0.008, s.texture_seed));
 }
 
-}  // namespace tabletop_detail
+}  // namespace scene_detail
 }  // namespace shortshot_bench
