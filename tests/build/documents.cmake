@@ -65,7 +65,7 @@ build_test(firmware_page.host "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WAR
 build_test(firmware_page.host.runs "${page}/firmware")
 depends(firmware_page.host firmware_page)
 depends(firmware_page.host.runs firmware_page.host)
-build_test(firmware_page.recognition "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" -O2
+build_test(firmware_page.recognition "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}"
   "${page}/train_for_flash.cpp" "${page}/recognize.cpp" "${here}/recognition_page_main.cpp" -o "${page}/recognition")
 build_test(firmware_page.recognition.runs "${page}/recognition")
 depends(firmware_page.recognition firmware_page)

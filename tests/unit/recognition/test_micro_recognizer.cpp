@@ -1,5 +1,5 @@
-// Recognition without a heap: the hypotheses of recognize() with the same model, bit for bit, in all storages; what it
-// refuses.
+// Recognition without a heap: the hypotheses of recognize() with the same model, bit for bit, of codes and bits; what
+// it refuses.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -100,11 +100,9 @@ TestCloud patch() { return curved_surface(7, 3000); }
 
 }  // namespace
 
-TEST_CASE("micro recognizer: the hypotheses of recognize(), bit for bit, in each storage") {
-  check_same<ss::ByteDescriptor<D>>({0.03f, 1, 8});
+TEST_CASE("micro recognizer: the hypotheses of recognize(), bit for bit, of codes and of bits") {
   check_same<ss::NibbleDescriptor<D>>({0.03f, 1, 8});
   check_same<ss::CodedDescriptor<D, 3>>({0.01f, 1, 8});
-  check_same<ss::BinaryDescriptor<D>>({0.03f, 1, 8});
   check_same<ss::SumBits<D, 256>>({0.05f, 1, 8});
 }
 
