@@ -5,10 +5,6 @@
 
 namespace shortshot_bench::paper {
 
-void require(shortshot::Status status) {
-  if (status != shortshot::Status::ok) throw std::runtime_error(shortshot::message(status));
-}
-
 std::vector<Configuration> known_configurations() {
   using namespace shortshot;
   // SHOT and CSHOT as PCL computes them: what the paper compares with.

@@ -9,6 +9,7 @@
 
 #include "paper/kept_frames.hpp"
 #include "shortshot/shortshot.hpp"
+#include "tools/io/require_ok.hpp"
 
 namespace shortshot_bench::paper {
 
@@ -41,9 +42,6 @@ struct Configuration {
 
   std::size_t size_bytes() const { return size * sizeof(float); }
 };
-
-/// Throws std::runtime_error with the library's message unless `status` is ok.
-void require(shortshot::Status status);
 
 template <class D>
 Described described_by(shortshot::Features<D> features) {

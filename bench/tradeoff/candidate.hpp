@@ -44,7 +44,7 @@ paper::Described extract_as(const shortshot::CloudView& cloud, const shortshot::
                             const std::vector<shortshot::KeyPoint>& keypoints, const shortshot::Support& support,
                             const paper::KeptFrames&) {
   shortshot::Features<D> features;
-  paper::require(shortshot::extract(cloud, search, keypoints, support, features));
+  require(shortshot::extract(cloud, search, keypoints, support, features));
   return paper::described_by(std::move(features));
 }
 

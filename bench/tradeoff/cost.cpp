@@ -26,10 +26,10 @@ class Workload {
   Workload() : cloud_(make_tabletop()) {
     const shortshot::CloudView view = view_of_cloud(cloud_);
     std::vector<std::uint32_t> points;
-    paper::require(shortshot::sample_uniform(view, leaf, points));
+    require(shortshot::sample_uniform(view, leaf, points));
     for (std::size_t i = 0; i < points.size(); i += every) keypoints_.push_back(shortshot::keypoint(view, points[i]));
     const shortshot::GridSearch near(view, radius / 4.0f);
-    paper::require(shortshot::estimate_normals(view, near, radius / 4.0f, camera_of_cloud(cloud_), normals_));
+    require(shortshot::estimate_normals(view, near, radius / 4.0f, camera_of_cloud(cloud_), normals_));
     search_ = std::make_unique<shortshot::GridSearch>(view, radius);
   }
   std::size_t keypoints() const { return keypoints_.size(); }

@@ -31,7 +31,7 @@ RgbdCloud painted(RgbdCloud cloud, const Paint& paint) {
   const shortshot::CloudView view = view_of_cloud(cloud);
   const shortshot::GridSearch search(view, normal_radius);
   std::vector<shortshot::SurfaceNormal> normals;
-  paper::require(shortshot::estimate_normals(view, search, normal_radius, camera_of_cloud(cloud), normals));
+  require(shortshot::estimate_normals(view, search, normal_radius, camera_of_cloud(cloud), normals));
   Random random(paint.seed);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const double light =

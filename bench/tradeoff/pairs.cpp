@@ -23,7 +23,7 @@ campaign::Fraction count_nearest(const Described& source, const Described& targe
 /// The share of reciprocal matches that are right: each pair counts as much, however many it has.
 campaign::Fraction count_reciprocal(const Described& source, const Described& target, const Truth& truth) {
   std::vector<shortshot::MatchedPair> pairs;
-  paper::require(shortshot::reciprocal_correspondences(source.rows().descriptors, target.rows().descriptors, pairs));
+  require(shortshot::reciprocal_correspondences(source.rows().descriptors, target.rows().descriptors, pairs));
   const auto right = std::count_if(pairs.begin(), pairs.end(),
                                    [&](const shortshot::MatchedPair& p) { return truth.is_right(p.source, p.target); });
   return {pairs.empty() ? 0.0 : static_cast<double>(right) / static_cast<double>(pairs.size()), 1.0};

@@ -42,7 +42,7 @@ void count_fold(const paper::RecognitionTask& task, const std::vector<Described>
   const Rows test = rows_of(described, fold.test);
   const Rows training = rows_of(described, fold.training);
   std::vector<shortshot::Match> nearest;
-  paper::require(shortshot::nearest(descriptors_of(test), descriptors_of(training), 1, nearest));
+  require(shortshot::nearest(descriptors_of(test), descriptors_of(training), 1, nearest));
   for (std::size_t row = 0; row < nearest.size(); ++row) {
     campaign::Fraction& count = items[test.view[row]].counts[entry];
     count.denominator += 1.0;

@@ -2,6 +2,7 @@
 // borders of cells, copies, degenerate neighborhoods), in frames of their own and in given ones, and of the generated
 // patch. Every search, workspace and chunk size must give the same.
 #include "board.hpp"
+#include "hash.hpp"
 #include "patch.hpp"
 
 extern "C" {
@@ -38,37 +39,23 @@ shortshot::CompactWorkspace<most_neighbors> compact_workspace;
 #endif
 float descriptor[696];
 
-/// FNV-1a.
-class Hash {
- public:
-  void add(std::uint32_t bits) {
-    for (int k = 0; k < 4; ++k) value_ = (value_ ^ (bits >> 8 * k & 255u)) * 16777619u;
-  }
-  void add(Status status, int size) {
-    add(static_cast<std::uint32_t>(status));
-    for (int i = 0; i < size; ++i) {
-      std::uint32_t bits = 0;
-      __builtin_memcpy(&bits, descriptor + i, sizeof bits);
-      add(bits);
-    }
-  }
-  std::uint32_t value() const { return value_; }
-
- private:
-  std::uint32_t value_ = 2166136261u;
-};
+void add(Hash& hash, Status status, int size) {
+  const auto number = static_cast<std::uint32_t>(status);
+  hash.add(&number, sizeof number);
+  hash.add(descriptor, static_cast<std::size_t>(size) * sizeof descriptor[0]);
+}
 
 /// Every key point of an input by one search. `describe(search, where...)` calls the library.
 template <class D, class Search, class Describe>
 void add_all(Hash& hash, const Input& input, const Search& search, const Describe& describe) {
   for (std::size_t i = 0; i < input.count; ++i) {
     const auto index = static_cast<std::size_t>(input.keypoints[i]);
-    hash.add(describe(input, search, index, shortshot::Support(input.radius)), D::size);
+    add(hash, describe(input, search, index, shortshot::Support(input.radius)), D::size);
     if (input.frames == nullptr) continue;
     shortshot::Frame frame{};
     __builtin_memcpy(&frame, input.frames + 9 * i, sizeof frame);
-    hash.add(describe(input, search, shortshot::keypoint(input.cloud, index), frame, shortshot::Radius(input.radius)),
-             D::size);
+    add(hash, describe(input, search, shortshot::keypoint(input.cloud, index), frame, shortshot::Radius(input.radius)),
+        D::size);
   }
 }
 

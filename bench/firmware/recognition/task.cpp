@@ -1,8 +1,9 @@
 #include "firmware/recognition/task.hpp"
 
 #include <cstring>
-#include <stdexcept>
 
+#include "firmware/programs/recognition.hpp"
+#include "tools/io/require_ok.hpp"
 #include "tools/io/view_of_cloud.hpp"
 #include "tools/scene/object_views.hpp"
 
@@ -10,48 +11,38 @@ namespace shortshot_bench::firmware {
 namespace {
 
 namespace ss = shortshot;
+using recognition::Stored;
 
 constexpr std::size_t training_keypoints = 33;
 constexpr int turns = 4;
 constexpr float normal_radius = 0.01f;
 const ss::RecognizerOptions recognizer_options{0.02f, 1, 8};
 
-void require(ss::Status status) {
-  if (status != ss::Status::ok) throw std::runtime_error(ss::message(status));
-}
-
 LabeledView labeled(std::uint32_t object, const ObjectViewOptions& options) {
   const ObjectView view = make_object_view(object, options);
   return {view.cloud, view.center, object};
 }
 
-/// At the most `most` points, evenly along the order of the cloud.
-std::vector<std::uint32_t> keypoints_of(std::size_t points, std::size_t most) {
-  const std::size_t stride = (points + most - 1) / most;
-  std::vector<std::uint32_t> keypoints;
-  for (std::size_t i = stride / 2; i < points; i += stride) keypoints.push_back(static_cast<std::uint32_t>(i));
-  return keypoints;
-}
-
 template <class D>
 ss::Features<D> described(const LabeledView& view, std::size_t most) {
   ss::CloudView cloud = view_of_cloud(view.cloud);
-  const ss::GridSearch search(cloud, recognition_radius);
+  const ss::GridSearch search(cloud, recognition::radius);
   std::vector<ss::SurfaceNormal> normals;
   if constexpr (D::needs_normals) {
     require(ss::estimate_normals(cloud, search, normal_radius, ss::Viewpoint::towards({}), normals));
     cloud = ss::with_normals(cloud, normals.data());
   }
-  ss::Support support = recognition_radius;
-  support.viewpoint = ss::Viewpoint::towards({});
+  std::vector<std::uint32_t> keypoints;
+  recognition::for_keypoints(cloud.size, most,
+                             [&](std::size_t i) { keypoints.push_back(static_cast<std::uint32_t>(i)); });
   ss::Features<D> features;
-  require(ss::extract<D>(cloud, search, keypoints_of(cloud.size, most), support, features));
+  require(ss::extract<D>(cloud, search, keypoints, recognition::support(), features));
   return features;
 }
 
 ss::StoredFeatures<Stored> stored(const LabeledView& view, std::size_t most) {
   ss::StoredFeatures<Stored> features;
-  require(ss::store(described<ss::ShapeColor95>(view, most), features));
+  require(ss::store(described<recognition::Descriptor>(view, most), features));
   return features;
 }
 
@@ -98,7 +89,7 @@ std::size_t right_with_cshot(const RecognitionTask& task) {
   std::size_t right = 0;
   for (const LabeledView& view : task.test) {
     std::vector<ss::Hypothesis> found;
-    require(ss::recognize(recognizer, described<D>(view, recognition_keypoints), found));
+    require(ss::recognize(recognizer, described<D>(view, recognition::keypoints), found));
     right += is_right(task, recognizer, view, found) ? 1 : 0;
   }
   return right;

@@ -12,12 +12,6 @@
 
 namespace shortshot_bench::firmware {
 
-using Stored = shortshot::SumBits<shortshot::ShapeColor95>;
-
-/// What board and host must have in common: see programs/recognize.cpp.
-inline constexpr float recognition_radius = 0.025f;
-inline constexpr std::size_t recognition_keypoints = 100;  // of a view, at the most
-
 struct LabeledView {
   RgbdCloud cloud;
   shortshot::Point center;

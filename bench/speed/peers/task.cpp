@@ -1,37 +1,16 @@
 #include "speed/peers/task.hpp"
 
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
 
 #include "shortshot/shortshot.hpp"
 #include "speed/spread_keypoints.hpp"
+#include "tools/io/require_ok.hpp"
+#include "tools/io/valid_points.hpp"
 #include "tools/io/view_of_cloud.hpp"
 
 namespace shortshot_bench::peers {
-namespace {
-
-void require(shortshot::Status status) {
-  if (status != shortshot::Status::ok) throw std::runtime_error(shortshot::message(status));
-}
-
-/// The points that were measured, as one row.
-RgbdCloud valid_points(const RgbdCloud& cloud) {
-  RgbdCloud valid;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const float* p = cloud.xyz.data() + 3 * i;
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2])) continue;
-    valid.xyz.insert(valid.xyz.end(), p, p + 3);
-    valid.rgb.insert(valid.rgb.end(), cloud.rgb.data() + 3 * i, cloud.rgb.data() + 3 * (i + 1));
-  }
-  valid.width = valid.size();
-  valid.height = 1;
-  return valid;
-}
-
-}  // namespace
-
 Task make_task(const std::string& name, const RgbdCloud& cloud, float radius, float leaf) {
   if (!cloud.has_colors()) throw std::runtime_error("no colors, which half of the descriptors need");
   Task task;

@@ -9,10 +9,6 @@
 
 namespace shortshot_bench::scaling {
 
-void require(shortshot::Status status) {
-  if (status != shortshot::Status::ok) throw std::runtime_error(shortshot::message(status));
-}
-
 ScalingCloud::ScalingCloud(std::size_t about_points) {
   constexpr double valid_share = 0.91;  // of the pixels of the scene
   const double pixels = static_cast<double>(about_points) / valid_share;

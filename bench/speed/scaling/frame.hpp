@@ -7,6 +7,7 @@
 
 #include "shortshot/shortshot.hpp"
 #include "speed/scaling/measure.hpp"
+#include "tools/io/require_ok.hpp"
 #include "tools/io/rgbd_cloud.hpp"
 
 namespace shortshot_bench::scaling {
@@ -58,8 +59,5 @@ class FrameWork {
   shortshot::Extractor<Measured> extractor_;
   shortshot::Features<Measured> features_;
 };
-
-/// Throws std::runtime_error with the library's own words unless `status` is ok.
-void require(shortshot::Status status);
 
 }  // namespace shortshot_bench::scaling

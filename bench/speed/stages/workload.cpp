@@ -9,16 +9,13 @@
 #include "shortshot/batch/keypoints.hpp"
 #include "shortshot/kernel/describe.hpp"
 #include "shortshot/status.hpp"
+#include "tools/io/require_ok.hpp"
 #include "tools/io/view_of_cloud.hpp"
 
 namespace shortshot_bench {
 namespace {
 
 using shortshot::Status;
-
-void require(Status status) {
-  if (status != Status::ok) throw std::runtime_error(shortshot::message(status));
-}
 
 /// How many neighbors there are: a search says so also if there is no room for them.
 std::uint32_t count_neighbors(const shortshot::GridSearch& search, const shortshot::Point& center, float radius) {

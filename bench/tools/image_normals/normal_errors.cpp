@@ -4,19 +4,15 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <stdexcept>
 
 #include "shortshot/shortshot.hpp"
+#include "tools/io/require_ok.hpp"
 #include "tools/io/view_of_cloud.hpp"
 
 namespace shortshot_bench {
 namespace {
 
 using shortshot::SurfaceNormal;
-
-void require(shortshot::Status status) {
-  if (status != shortshot::Status::ok) throw std::runtime_error(shortshot::message(status));
-}
 
 double degrees_between(const SurfaceNormal& a, const SurfaceNormal& b) {
   const double u[3] = {double{a.x}, double{a.y}, double{a.z}};

@@ -1,10 +1,10 @@
 // Must be built with -ffp-contract=off: see the note on determinism in solids.hpp.
 #include "tools/scene/object_views.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "tools/io/valid_points.hpp"
 #include "tools/scene/objects.hpp"
 #include "tools/scene/sensor.hpp"
 
@@ -46,17 +46,8 @@ ObjectView make_object_view(std::size_t object, const ObjectViewOptions& options
   scene.lamp = {-0.6, -0.5, 1.4};
 
   const Sensor sensor{options.seed, options.width, options.width * 3 / 4, 1.0f};
-  const RgbdCloud image = record(scene, sensor);
   ObjectView view;
-  for (std::size_t i = 0; i < image.xyz.size() / 3; ++i) {
-    if (!std::isfinite(image.xyz[3 * i + 2])) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      view.cloud.xyz.push_back(image.xyz[3 * i + k]);
-      view.cloud.rgb.push_back(image.rgb[3 * i + k]);
-    }
-  }
-  view.cloud.width = view.cloud.xyz.size() / 3;
-  view.cloud.height = 1;
+  view.cloud = valid_points(record(scene, sensor));
   const Vec3 middle = Vec3{0.0, 0.0, 0.5 * scene.solids[0].size.z} - scene.eye;
   view.center = {static_cast<float>(middle.x), static_cast<float>(dot(middle, scene.down)),
                  static_cast<float>(dot(middle, scene.forward))};

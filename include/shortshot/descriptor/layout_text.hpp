@@ -7,6 +7,7 @@
 #include <numeric>
 #include <type_traits>
 
+#include "../base/fnv1a.hpp"
 #include "../config.hpp"
 #include "descriptor.hpp"
 #include "spherical_grid.hpp"
@@ -132,11 +133,11 @@ constexpr void add_layout(Text& text, const Descriptor<Voting, Parts...>*) {
   ((add(text, separator), add_part<Parts>(text), separator = " | "), ...);
 }
 
-/// A text as a number: its 64-bit FNV-1a.
+/// A text as a number.
 struct LayoutNumber {
-  std::uint64_t value = 0xCBF29CE484222325u;
+  std::uint64_t value = fnv1a_of_nothing;
   constexpr void add(const char* piece) noexcept {
-    for (; *piece != '\0'; ++piece) value = (value ^ static_cast<unsigned char>(*piece)) * 0x100000001B3u;
+    for (; *piece != '\0'; ++piece) value = fnv1a(value, static_cast<std::uint8_t>(*piece));
   }
 };
 

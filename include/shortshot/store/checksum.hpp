@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "../base/fnv1a.hpp"
 #include "../config.hpp"
 
 namespace shortshot::detail {
@@ -15,8 +16,8 @@ inline namespace SHORTSHOT_CODE {
 inline constexpr std::size_t checksum_bytes = 8;
 
 [[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size) noexcept {
-  std::uint64_t hash = 0xCBF29CE484222325u;
-  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 0x100000001B3u;
+  std::uint64_t hash = fnv1a_of_nothing;
+  for (std::size_t i = 0; i < size; ++i) hash = fnv1a(hash, bytes[i]);
   return hash;
 }
 

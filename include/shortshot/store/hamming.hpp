@@ -10,16 +10,25 @@
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
+/// Ones of each four bits of a word.
+[[nodiscard, gnu::always_inline]] inline std::size_t ones_of_fours(std::size_t word) noexcept {
+  constexpr std::size_t every = ~std::size_t{0};
+  word -= word >> 1 & every / 3;  // of each two bits
+  return (word & every / 5) + (word >> 2 & every / 5);
+}
+/// The sum of a word's bytes, if it is below 256.
+[[nodiscard, gnu::always_inline]] inline std::uint32_t sum_of_bytes(std::size_t word) noexcept {
+  constexpr std::size_t every = ~std::size_t{0};
+  return static_cast<std::uint32_t>(word * (every / 255) >> (8 * (sizeof word - 1)));
+}
+
 /// Ones in a word. __builtin_popcount is a call to the compiler's library where the CPU has no instruction for it.
 [[nodiscard, gnu::always_inline]] inline int count_ones(std::size_t word) noexcept {
 #if defined(__POPCNT__) || defined(__aarch64__)
   return __builtin_popcountll(word);
 #else
-  constexpr std::size_t every = ~std::size_t{0};
-  word -= word >> 1 & every / 3;                                             // counts of two bits each,
-  word = (word & every / 5) + (word >> 2 & every / 5);                       // of four,
-  word = (word + (word >> 4)) & every / 17;                                  // of eight;
-  return static_cast<int>(word * (every / 255) >> (8 * (sizeof word - 1)));  // and their sum
+  const std::size_t fours = ones_of_fours(word);
+  return static_cast<int>(sum_of_bytes((fours + (fours >> 4)) & ~std::size_t{0} / 17));
 #endif
 }
 
@@ -59,22 +68,19 @@ inline namespace SHORTSHOT_CODE {
 [[nodiscard]] inline std::uint32_t hamming_distance_below(const std::uint8_t* a, const std::uint8_t* b,
                                                           std::size_t size_bytes, std::uint32_t limit) noexcept {
   using Word = std::size_t;
-  constexpr Word every = ~Word{0};
+  constexpr Word low_halves = ~Word{0} / 17;  // of bytes
   constexpr std::size_t words = 2;
   std::uint32_t distance = 0;
   std::size_t i = 0;
   for (; i + words * sizeof(Word) <= size_bytes; i += words * sizeof(Word)) {
-    Word ones = 0;  // of four bits each,
+    Word fours = 0;
     for (std::size_t w = 0; w < words; ++w) {
       Word of_a, of_b;
       std::memcpy(&of_a, a + i + w * sizeof(Word), sizeof(Word));
       std::memcpy(&of_b, b + i + w * sizeof(Word), sizeof(Word));
-      Word word = of_a ^ of_b;
-      word -= word >> 1 & every / 3;
-      ones += (word & every / 5) + (word >> 2 & every / 5);
+      fours += ones_of_fours(of_a ^ of_b);
     }
-    ones = (ones & every / 17) + (ones >> 4 & every / 17);                                    // of eight,
-    distance += static_cast<std::uint32_t>(ones * (every / 255) >> (8 * (sizeof ones - 1)));  // and their sum
+    distance += sum_of_bytes((fours & low_halves) + (fours >> 4 & low_halves));
     if (distance >= limit) return distance;
   }
   return distance + static_cast<std::uint32_t>(hamming_distance(a + i, b + i, size_bytes - i));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "stored_views.hpp"
+#include "with_checksum.hpp"
 
 namespace test_flash_model {
 namespace {
@@ -63,12 +64,6 @@ void use(const ss::ModelView<Stored>& model) {
   CHECK(recognizer.finish(found) <= 4);
 }
 
-/// The checksum that belongs to the bytes before it.
-void sign(Bytes& bytes) {
-  const std::uint64_t sum = ss::detail::checksum(bytes.data(), bytes.size() - 8);
-  for (std::size_t k = 0; k < 8; ++k) bytes[bytes.size() - 8 + k] = static_cast<std::uint8_t>(sum >> (8 * k) & 255u);
-}
-
 }  // namespace
 
 TEST_CASE("flash model: what was trained is read in place") {
@@ -119,7 +114,7 @@ TEST_CASE("flash model: anything else is refused, by a status that says what it 
   CHECK(of_rings.open(bytes.data(), bytes.size()) == Status::other_descriptor);
   Bytes other = bytes;
   other[8] = 2;
-  sign(other);
+  other = with_checksum(other);
   CHECK(model.open(other.data(), other.size()) == Status::other_version);
   CHECK(model.codeword_count() == 0);
   ss::Recognizer loaded;
@@ -164,7 +159,7 @@ TEST_CASE("flash model: behind a right checksum nothing wrong does harm") {
     for (const unsigned value : {0u, 1u, 127u, 255u}) {
       Bytes damaged = bytes;
       damaged[i] = static_cast<std::uint8_t>(value);
-      sign(damaged);
+      damaged = with_checksum(damaged);
       ss::ModelView<Stored> model;
       if (model.open(damaged.data(), damaged.size()) == Status::ok) {
         if (value == 255u || i < 80) use(model);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "synthetic_objects.hpp"
+#include "with_checksum.hpp"
 
 namespace test_recognizer_model {
 namespace {
@@ -43,12 +44,6 @@ const std::size_t at_classes = at_bandwidth + 12;
 const std::size_t at_instances = at_classes + 8 + 2 * (8 + 3);
 const std::size_t at_codewords = at_instances + 8 + 3 * (4 + 8) + 1 + 3;
 const std::size_t at_values = at_codewords + 8 + 10 * 16;
-
-Bytes with_checksum(Bytes bytes) {
-  const std::uint64_t sum = ss::detail::checksum(bytes.data(), bytes.size() - 8);
-  for (std::size_t k = 0; k < 8; ++k) bytes[bytes.size() - 8 + k] = static_cast<std::uint8_t>(sum >> (8 * k) & 0xFFu);
-  return bytes;
-}
 
 /// Another number, and a checksum that is right.
 Bytes changed(Bytes bytes, std::size_t at, std::uint64_t value, std::size_t size) {

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <memory>
 #include <nanoflann.hpp>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "speed/peers/task.hpp"
 #include "speed/spread_keypoints.hpp"
 #include "tools/golden/neighbors.hpp"
+#include "tools/io/require_ok.hpp"
 #include "tools/io/view_of_cloud.hpp"
 
 namespace shortshot_bench::peers {
@@ -24,10 +24,6 @@ Suite PEERS_SUITE(const Task& task);
 namespace {
 
 namespace ss = shortshot;
-
-void require(ss::Status status) {
-  if (status != ss::Status::ok) throw std::runtime_error(ss::message(status));
-}
 
 /// One search; built anew for every frame, as one does.
 struct Grid {
