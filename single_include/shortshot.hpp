@@ -8440,19 +8440,103 @@ struct LayoutNumber {
 #ifndef SHORTSHOT_STORE_HAMMING_HPP
 #define SHORTSHOT_STORE_HAMMING_HPP
 
+// shortshot/base/simd_halves.hpp: two numbers in a register of 32 bits: the DSP instructions of Cortex-M4 and later.
+#ifndef SHORTSHOT_BASE_SIMD_HALVES_HPP
+#define SHORTSHOT_BASE_SIMD_HALVES_HPP
+
+#if defined(__ARM_FEATURE_DSP) && defined(__ARM_FEATURE_SIMD32) && (defined(__clang__) || __GNUC__ >= 10)
+#define SHORTSHOT_HAS_HALVES
+#include <arm_acle.h>
+#endif
+
+namespace shortshot::extend::simd {
+inline namespace SHORTSHOT_CODE {
+
+/// Is it worth a loop of its own?
+#if defined(SHORTSHOT_HAS_HALVES)
+inline constexpr bool has_halves = true;
+#else
+inline constexpr bool has_halves = false;
+#endif
+
+/// `sum` and the squared differences of the four bytes of a and b.
+[[nodiscard, gnu::always_inline]] inline std::uint32_t add_squared_differences(std::uint32_t a, std::uint32_t b,
+                                                                               std::uint32_t sum) noexcept {
+#if defined(SHORTSHOT_HAS_HALVES)
+#if defined(__clang__)
+  using Bytes = int8x4_t;  // its header says so; GCC's has the sign of the instruction
+#else
+  using Bytes = uint8x4_t;
+#endif
+  const auto halves = [](std::uint32_t v) { return static_cast<uint16x2_t>(__uxtb16(static_cast<Bytes>(v))); };
+  const auto even = static_cast<std::int32_t>(__usub16(halves(a), halves(b)));
+  const auto odd = static_cast<std::int32_t>(__usub16(halves(a >> 8), halves(b >> 8)));
+  const std::int32_t half = __smlad(even, even, static_cast<std::int32_t>(sum));  // sums wrap, as unsigned ones do
+  return static_cast<std::uint32_t>(__smlad(odd, odd, half));
+#else
+  for (int shift = 0; shift < 32; shift += 8) {
+    const auto difference = static_cast<std::int32_t>(a >> shift & 255u) - static_cast<std::int32_t>(b >> shift & 255u);
+    sum += static_cast<std::uint32_t>(difference * difference);
+  }
+  return sum;
+#endif
+}
+
+/// `sum` and the four bytes of a.
+[[nodiscard, gnu::always_inline]] inline std::uint32_t add_bytes(std::uint32_t a, std::uint32_t sum) noexcept {
+#if defined(SHORTSHOT_HAS_HALVES)
+#if defined(__clang__)
+  using Bytes = int8x4_t;
+#else
+  using Bytes = uint8x4_t;
+#endif
+  return __usada8(static_cast<Bytes>(a), 0, sum);
+#else
+  for (int shift = 0; shift < 32; shift += 8) sum += a >> shift & 255u;
+  return sum;
+#endif
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::extend::simd
+#endif  // SHORTSHOT_BASE_SIMD_HALVES_HPP
+
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// Ones of each four bits of a word.
-[[nodiscard, gnu::always_inline]] inline std::size_t ones_of_fours(std::size_t word) noexcept {
-  constexpr std::size_t every = ~std::size_t{0};
-  word -= word >> 1 & every / 3;  // of each two bits
-  return (word & every / 5) + (word >> 2 & every / 5);
+/// All ones, divided by this: a one in every field of so many bits.
+inline constexpr std::size_t all_ones = ~std::size_t{0};
+
+/// The bits of a word of which every second field of `Bits` bits is made. (As an assembly statement's they are not
+/// known to be that: what is left when they are taken away is a subtraction, and shifted as it is added, for which
+/// Thumb has an instruction. It has none that masks what it shifts.)
+template <int Bits>
+[[nodiscard, gnu::always_inline]] inline std::size_t every_second(std::size_t word) noexcept {
+  std::size_t low = word & all_ones / ((std::size_t{1} << Bits) + 1);
+  __asm__("" : "+r"(low));
+  return low;
 }
-/// The sum of a word's bytes, if it is below 256.
-[[nodiscard, gnu::always_inline]] inline std::uint32_t sum_of_bytes(std::size_t word) noexcept {
-  constexpr std::size_t every = ~std::size_t{0};
-  return static_cast<std::uint32_t>(word * (every / 255) >> (8 * (sizeof word - 1)));
+
+/// The sums of a word's fields of `Bits` bits, two by two.
+template <int Bits>
+[[nodiscard, gnu::always_inline]] inline std::size_t sums_of_two(std::size_t word) noexcept {
+  const std::size_t low = every_second<Bits>(word);
+  return low + ((word - low) >> Bits);
+}
+
+/// `sum` and a word's bytes, which are less than 256 together.
+[[nodiscard, gnu::always_inline]] inline std::uint32_t add_all_bytes(std::size_t word, std::uint32_t sum) noexcept {
+  if constexpr (simd::has_halves) return simd::add_bytes(static_cast<std::uint32_t>(word), sum);
+  return sum + static_cast<std::uint32_t>(word * (all_ones / 255) >> (8 * (sizeof word - 1)));
+}
+
+/// `sum` and the ones of three words: those of the third are added to the pairs of the others.
+[[nodiscard, gnu::always_inline]] inline std::uint32_t add_ones(std::size_t a, std::size_t b, std::size_t c,
+                                                                std::uint32_t sum) noexcept {
+  const std::size_t low = every_second<1>(c);
+  const std::size_t fours =
+      sums_of_two<2>(sums_of_two<1>(a) + low) + sums_of_two<2>(sums_of_two<1>(b) + ((c - low) >> 1));
+  return add_all_bytes(sums_of_two<4>(fours), sum);
 }
 
 /// Ones in a word. __builtin_popcount is a call to the compiler's library where the CPU has no instruction for it.
@@ -8460,8 +8544,7 @@ inline namespace SHORTSHOT_CODE {
 #if defined(__POPCNT__) || defined(__aarch64__)
   return __builtin_popcountll(word);
 #else
-  const std::size_t fours = ones_of_fours(word);
-  return static_cast<int>(sum_of_bytes((fours + (fours >> 4)) & ~std::size_t{0} / 17));
+  return static_cast<int>(add_all_bytes(sums_of_two<4>(sums_of_two<2>(sums_of_two<1>(word))), 0));
 #endif
 }
 
@@ -8496,24 +8579,23 @@ inline namespace SHORTSHOT_CODE {
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// The number of bits in which rows differ, if that is below the limit; else a number that is not. Two words at a
+/// The number of bits in which rows differ, if that is below the limit; else a number that is not. Three words at a
 /// time, whose ones are added up before they are counted to the end: then it is known whether going on is of use.
-[[nodiscard]] inline std::uint32_t hamming_distance_below(const std::uint8_t* a, const std::uint8_t* b,
-                                                          std::size_t size_bytes, std::uint32_t limit) noexcept {
+[[nodiscard]] SHORTSHOT_INLINE std::uint32_t hamming_distance_below(const std::uint8_t* a, const std::uint8_t* b,
+                                                                    std::size_t size_bytes,
+                                                                    std::uint32_t limit) noexcept {
   using Word = std::size_t;
-  constexpr Word low_halves = ~Word{0} / 17;  // of bytes
-  constexpr std::size_t words = 2;
+  constexpr std::size_t words = 3;
+  const auto differing = [&](std::size_t i) {
+    Word of_a, of_b;
+    std::memcpy(&of_a, a + i, sizeof(Word));
+    std::memcpy(&of_b, b + i, sizeof(Word));
+    return of_a ^ of_b;
+  };
   std::uint32_t distance = 0;
   std::size_t i = 0;
   for (; i + words * sizeof(Word) <= size_bytes; i += words * sizeof(Word)) {
-    Word fours = 0;
-    for (std::size_t w = 0; w < words; ++w) {
-      Word of_a, of_b;
-      std::memcpy(&of_a, a + i + w * sizeof(Word), sizeof(Word));
-      std::memcpy(&of_b, b + i + w * sizeof(Word), sizeof(Word));
-      fours += ones_of_fours(of_a ^ of_b);
-    }
-    distance += sum_of_bytes((fours & low_halves) + (fours >> 4 & low_halves));
+    distance = add_ones(differing(i), differing(i + sizeof(Word)), differing(i + 2 * sizeof(Word)), distance);
     if (distance >= limit) return distance;
   }
   return distance + static_cast<std::uint32_t>(hamming_distance(a + i, b + i, size_bytes - i));
@@ -8768,52 +8850,6 @@ inline constexpr int code_scale<ColorRings27, 8> = 360;
 #ifndef SHORTSHOT_STORE_CODE_DISTANCE_HPP
 #define SHORTSHOT_STORE_CODE_DISTANCE_HPP
 
-// shortshot/base/simd_halves.hpp: two numbers in a register of 32 bits: the DSP instructions of Cortex-M4 and later.
-#ifndef SHORTSHOT_BASE_SIMD_HALVES_HPP
-#define SHORTSHOT_BASE_SIMD_HALVES_HPP
-
-#if defined(__ARM_FEATURE_DSP) && defined(__ARM_FEATURE_SIMD32) && (defined(__clang__) || __GNUC__ >= 10)
-#define SHORTSHOT_HAS_HALVES
-#include <arm_acle.h>
-#endif
-
-namespace shortshot::extend::simd {
-inline namespace SHORTSHOT_CODE {
-
-/// Is it worth a loop of its own?
-#if defined(SHORTSHOT_HAS_HALVES)
-inline constexpr bool has_halves = true;
-#else
-inline constexpr bool has_halves = false;
-#endif
-
-/// `sum` and the squared differences of the four bytes of a and b.
-[[nodiscard, gnu::always_inline]] inline std::uint32_t add_squared_differences(std::uint32_t a, std::uint32_t b,
-                                                                               std::uint32_t sum) noexcept {
-#if defined(SHORTSHOT_HAS_HALVES)
-#if defined(__clang__)
-  using Bytes = int8x4_t;  // its header says so; GCC's has the sign of the instruction
-#else
-  using Bytes = uint8x4_t;
-#endif
-  const auto halves = [](std::uint32_t v) { return static_cast<uint16x2_t>(__uxtb16(static_cast<Bytes>(v))); };
-  const auto even = static_cast<std::int32_t>(__usub16(halves(a), halves(b)));
-  const auto odd = static_cast<std::int32_t>(__usub16(halves(a >> 8), halves(b >> 8)));
-  const std::int32_t half = __smlad(even, even, static_cast<std::int32_t>(sum));  // sums wrap, as unsigned ones do
-  return static_cast<std::uint32_t>(__smlad(odd, odd, half));
-#else
-  for (int shift = 0; shift < 32; shift += 8) {
-    const auto difference = static_cast<std::int32_t>(a >> shift & 255u) - static_cast<std::int32_t>(b >> shift & 255u);
-    sum += static_cast<std::uint32_t>(difference * difference);
-  }
-  return sum;
-#endif
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::extend::simd
-#endif  // SHORTSHOT_BASE_SIMD_HALVES_HPP
-
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
@@ -8828,6 +8864,37 @@ template <int Bits>
       number |= static_cast<unsigned>(bytes[bit / 8 + 1]) << (8 - bit % 8);
   }
   return number & mask;
+}
+
+/// Writes one where all bits are 0 so far.
+template <int Bits>
+[[gnu::always_inline]] inline void put_number(std::uint8_t* bytes, std::size_t place, unsigned number) noexcept {
+  const std::size_t bit = place * static_cast<std::size_t>(Bits);
+  const unsigned shifted = number << bit % 8;
+  bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] | (shifted & 255u));
+  if (shifted > 255u) bytes[bit / 8 + 1] = static_cast<std::uint8_t>(bytes[bit / 8 + 1] | shifted >> 8);
+}
+
+/// Numbers i of `Bits` bits, number(i), one behind the other in so many bytes as they take. In place, too, for numbers
+/// that lie behind where they are written.
+template <int Bits, class Number>
+[[gnu::always_inline]] inline void write_numbers(std::uint8_t* bytes, int count, const Number& number) noexcept {
+  unsigned waiting = 0;
+  int bits = 0;  // that wait
+  for (int i = 0; i < count; ++i) {
+    waiting |= number(i) << bits;
+    for (bits += Bits; bits >= 8 || (bits > 0 && i == count - 1); bits -= 8) {
+      *bytes++ = static_cast<std::uint8_t>(waiting & 255u);
+      waiting >>= 8;
+    }
+  }
+}
+
+/// The numbers of a row of so many bytes in another order: number i is number place(i) of the row.
+template <int Bits, class Place>
+inline void arrange(const std::uint8_t* row, std::uint8_t* out, std::size_t size, const Place& place) noexcept {
+  write_numbers<Bits>(out, static_cast<int>(8 * size / Bits),
+                      [&](int i) { return number_at<Bits>(row, place(static_cast<std::size_t>(i))); });
 }
 
 /// The sum of squared differences of the numbers in `Width` bytes, in a form that compilers turn into lanes at -O2,
@@ -9011,16 +9078,9 @@ inline namespace SHORTSHOT_CODE {
 ///     if (describe_at<D>(cloud, search, index, 0.04f, workspace, d.values) == Status::ok) quantize(d.values, d.bytes);
 template <class D, int Bits, int Scale>
 void quantize(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept {
-  std::uint8_t* byte = out.bytes;  // of a type that may alias the floats
-  unsigned waiting = 0;
-  int count = 0;  // of bits that wait
-  for (int i = 0; i < D::size; ++i) {
-    waiting |= detail::code_of<Bits>(values[i], static_cast<float>(Scale), detail::SignsOf<D>::at(i)) << count;
-    for (count += Bits; count >= 8 || (count > 0 && i == D::size - 1); count -= 8) {
-      *byte++ = static_cast<std::uint8_t>(waiting & 255u);
-      waiting >>= 8;
-    }
-  }
+  detail::write_numbers<Bits>(out.bytes, D::size, [&](int i) {
+    return detail::code_of<Bits>(values[i], static_cast<float>(Scale), detail::SignsOf<D>::at(i));
+  });
 }
 
 /// The values that codes stand for, D::size floats. No allocation, no error, reentrant; the same bits on every machine.
@@ -9250,9 +9310,9 @@ template <class D, int Bits, int Draws>
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// The descriptor that a storage is of, what its rows are made of in files, how it is said, how it is made,
-/// and how far two of them are apart in whole numbers, if that is below a limit; else any number that is not. (Halves
-/// are no whole numbers.)
+/// The descriptor that a storage is of, what its rows are made of in files, how it is said, how it is made; of how many
+/// bits the numbers of a row are, and how far two rows are apart in whole numbers, in whatever order these are, if that
+/// is below a limit; else any number that is not. (Halves are no whole numbers.)
 template <class Stored>
 struct Storage;
 template <class D>
@@ -9269,14 +9329,15 @@ template <class D, int Bits, int Scale>
 struct Storage<CodedDescriptor<D, Bits, Scale>> {
   using Descriptor = D;
   using Value = std::uint8_t;
+  static constexpr int number_bits = Bits;
   template <class Text>
   static constexpr void add_name(Text& text) {
     add_all(text, "codes of ", Bits, " bits, steps of 1/", Scale);
   }
   static void make(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept { quantize(values, out); }
-  [[nodiscard]] static std::uint32_t distance_below(const CodedDescriptor<D, Bits, Scale>& a,
-                                                    const CodedDescriptor<D, Bits, Scale>& b,
-                                                    std::uint32_t limit) noexcept {
+  [[nodiscard]] SHORTSHOT_INLINE static std::uint32_t distance_below(const CodedDescriptor<D, Bits, Scale>& a,
+                                                                     const CodedDescriptor<D, Bits, Scale>& b,
+                                                                     std::uint32_t limit) noexcept {
     return squared_code_distance_below<Bits>(a.bytes, b.bytes, sizeof a.bytes, limit);
   }
 };
@@ -9284,13 +9345,15 @@ template <class D, int Group>
 struct Storage<BinaryDescriptor<D, Group>> {
   using Descriptor = D;
   using Value = std::uint8_t;
+  static constexpr int number_bits = 1;
   template <class Text>
   static constexpr void add_name(Text& text) {
     add_all(text, "bits of groups of ", Group);
   }
   static void make(const float* values, BinaryDescriptor<D, Group>& out) noexcept { binarize(values, out); }
-  [[nodiscard]] static std::uint32_t distance_below(const BinaryDescriptor<D, Group>& a,
-                                                    const BinaryDescriptor<D, Group>& b, std::uint32_t limit) noexcept {
+  [[nodiscard]] SHORTSHOT_INLINE static std::uint32_t distance_below(const BinaryDescriptor<D, Group>& a,
+                                                                     const BinaryDescriptor<D, Group>& b,
+                                                                     std::uint32_t limit) noexcept {
     return hamming_distance_below(a.bytes, b.bytes, sizeof a.bytes, limit);
   }
 };
@@ -9298,13 +9361,15 @@ template <class D, int Bits, int Draws>
 struct Storage<SumBits<D, Bits, Draws>> {
   using Descriptor = D;
   using Value = std::uint8_t;
+  static constexpr int number_bits = 1;
   template <class Text>
   static constexpr void add_name(Text& text) {
     add_all(text, Bits, " bits of sums of ", Draws, ", steps of 1/", code_scale<D, 4>);
   }
   static void make(const float* values, SumBits<D, Bits, Draws>& out) noexcept { binarize(values, out); }
-  [[nodiscard]] static std::uint32_t distance_below(const SumBits<D, Bits, Draws>& a, const SumBits<D, Bits, Draws>& b,
-                                                    std::uint32_t limit) noexcept {
+  [[nodiscard]] SHORTSHOT_INLINE static std::uint32_t distance_below(const SumBits<D, Bits, Draws>& a,
+                                                                     const SumBits<D, Bits, Draws>& b,
+                                                                     std::uint32_t limit) noexcept {
     return hamming_distance_below(a.bytes, b.bytes, sizeof a.bytes, limit);
   }
 };
@@ -9525,8 +9590,10 @@ template <class Reachable>
 //     24  options: 4 bytes each bandwidth, neighbors, most
 //     36  4 bytes each: bytes of a row, codewords, instances, classes, bytes of text
 //     56  4 bytes, as a float: the unit of centers in meters, a power of two
-//     60  for each instance 2 bytes class; 2 bytes 0 if that is no multiple of 4
+//     60  4 bytes bits of a number of a row
+//     64  for each instance 2 bytes class; 2 bytes 0 if that is no multiple of 4
 //         for each codeword 2 bytes instance, 3 times 2 bytes center in the key point's frame, signed
+//         for each number of a row 2 bytes: which one of the descriptor it is; 2 bytes 0 if that is no multiple of 4
 //         rows of codes or bits, one per codeword, without gaps
 //         text, a 0 behind each: storage_layout, names of classes, names of instances
 //         up to three bytes 0
@@ -9629,20 +9696,22 @@ inline constexpr std::uint32_t flash_model_version = 1;
 /// Where the parts of a model begin, by how many there are of each. Numbers of 64 bits: sums of products of what may be
 /// damaged fit.
 struct FlashLayout {
-  static constexpr std::uint64_t header = 60;
+  static constexpr std::uint64_t header = 64;
   static constexpr std::uint64_t codeword = 8;
 
   std::uint64_t codewords;
+  std::uint64_t order;
   std::uint64_t rows;
   std::uint64_t text;
   std::uint64_t checksum;
 
   [[nodiscard]] static constexpr std::uint64_t whole(std::uint64_t bytes) noexcept { return (bytes + 3) / 4 * 4; }
 
-  constexpr FlashLayout(std::uint32_t row_bytes, std::uint32_t codeword_count, std::uint32_t instance_count,
-                        std::uint32_t text_bytes) noexcept
+  constexpr FlashLayout(std::uint32_t row_bytes, std::uint32_t number_bits, std::uint32_t codeword_count,
+                        std::uint32_t instance_count, std::uint32_t text_bytes) noexcept
       : codewords(header + whole(2 * std::uint64_t{instance_count})),
-        rows(codewords + codeword * codeword_count),
+        order(codewords + codeword * codeword_count),
+        rows(order + whole(2 * (8 * std::uint64_t{row_bytes} / number_bits))),
         text(rows + std::uint64_t{row_bytes} * codeword_count),
         checksum(whole(text + text_bytes)) {}
 };
@@ -9680,6 +9749,12 @@ class FlashModel {
     };
     return {coordinate(2), coordinate(4), coordinate(6)};
   }
+  [[nodiscard]] std::uint32_t number_bits() const noexcept { return number_bits_; }
+  [[nodiscard]] std::uint32_t number_count() const noexcept { return numbers_; }
+  /// Which number of a descriptor is number i of a row: those come first that tell most codewords apart.
+  [[nodiscard]] std::uint32_t place_of(std::uint32_t i) const noexcept {
+    return number16(bytes_ + order_ + 2 * std::size_t{i});
+  }
   [[nodiscard]] const std::uint8_t* row(std::uint32_t codeword) const noexcept {
     return bytes_ + rows_ + std::size_t{row_bytes_} * codeword;
   }
@@ -9706,9 +9781,13 @@ class FlashModel {
     classes_ = number32(bytes + 48);
     text_bytes_ = number32(bytes + 52);
     unit_ = math::float_of(number32(bytes + 56));
-    const FlashLayout layout(row_bytes_, codewords_, instances_, text_bytes_);
+    number_bits_ = number32(bytes + 60);
+    if (number_bits_ < 1 || number_bits_ > 8) return false;
+    numbers_ = static_cast<std::uint32_t>(8 * std::uint64_t{row_bytes_} / number_bits_);
+    const FlashLayout layout(row_bytes_, number_bits_, codewords_, instances_, text_bytes_);
     if (layout.checksum + checksum_bytes != size_bytes) return false;
     codewords_begin_ = static_cast<std::size_t>(layout.codewords);
+    order_ = static_cast<std::size_t>(layout.order);
     rows_ = static_cast<std::size_t>(layout.rows);
     text_ = static_cast<std::size_t>(layout.text);
     const auto checked = static_cast<std::size_t>(layout.checksum);
@@ -9721,6 +9800,7 @@ class FlashModel {
                  instances_ <= 65536 && classes_ <= 65536 && unit_ >= 1e-30f && unit_ <= 1e30f;
     for (std::uint32_t i = 0; sound && i < instances_; ++i) sound = class_of(i) < classes_;
     for (std::uint32_t i = 0; sound && i < codewords_; ++i) sound = instance_of(i) < instances_;
+    for (std::uint32_t i = 0; sound && i < number_count(); ++i) sound = place_of(i) < number_count();
     std::uint32_t texts = 0;
     for (std::uint32_t i = 0; i < text_bytes_; ++i) texts += bytes_[text_ + i] == 0 ? 1u : 0u;
     return sound && texts == 1 + classes_ + instances_ && bytes_[text_ + text_bytes_ - 1] == 0;
@@ -9731,11 +9811,14 @@ class FlashModel {
   RecognizerOptions options_{0.0f, 0, 0};
   float unit_ = 0.0f;
   std::uint32_t row_bytes_ = 0;
+  std::uint32_t number_bits_ = 0;
+  std::uint32_t numbers_ = 0;
   std::uint32_t codewords_ = 0;
   std::uint32_t instances_ = 0;
   std::uint32_t classes_ = 0;
   std::uint32_t text_bytes_ = 0;
   std::size_t codewords_begin_ = 0;
+  std::size_t order_ = 0;
   std::size_t rows_ = 0;
   std::size_t text_ = 0;
 };
@@ -9762,7 +9845,8 @@ class ModelView {
     detail::FlashModel opened;
     const Status status = opened.open(bytes, size_bytes);
     if (status != Status::ok) return status;
-    const bool alike = opened.storage() == detail::storage_number<Stored> && opened.row_bytes() == sizeof(Stored);
+    const bool alike = opened.storage() == detail::storage_number<Stored> && opened.row_bytes() == sizeof(Stored) &&
+                       opened.number_bits() == std::uint32_t{number_bits};
     if (!alike) return Status::other_descriptor;
     model_ = opened;
     return Status::ok;
@@ -9786,12 +9870,38 @@ class ModelView {
   }
   /// The object's center in the frame of the codeword's key point.
   [[nodiscard]] Point center_of(std::uint32_t codeword) const noexcept { return model_.center_of(codeword); }
-  [[nodiscard]] const Stored& descriptor(std::uint32_t codeword) const noexcept {
+  /// As it was trained.
+  [[nodiscard]] Stored descriptor(std::uint32_t codeword) const noexcept {
+    Stored out{};
+    for (std::uint32_t i = 0; i < model_.number_count(); ++i) {
+      detail::put_number<number_bits>(out.bytes, model_.place_of(i),
+                                      detail::number_at<number_bits>(model_.row(codeword), i));
+    }
+    return out;
+  }
+
+  /// The order of the codes or bits in a row: how many there are, and which one of the descriptor number i is.
+  [[nodiscard]] std::uint32_t number_count() const noexcept { return model_.number_count(); }
+  [[nodiscard]] std::uint32_t place_of(std::uint32_t i) const noexcept { return model_.place_of(i); }
+
+  /// A codeword's descriptor with its codes or bits in the model's order, in which those come first that tell most
+  /// codewords apart, and another descriptor in that order: the distance is the same. No copy; all zeros before a model
+  /// is open.
+  [[nodiscard]] const Stored& arranged(std::uint32_t codeword) const noexcept {
     static_assert(alignof(Stored) == 1, "ModelView<Stored> supports storages of bytes");
-    return *reinterpret_cast<const Stored*>(model_.row(codeword));
+    return reinterpret_cast<const Stored*>(model_.row(0))[codeword];
+  }
+  [[nodiscard]] Stored arranged(const Stored& stored) const noexcept {
+    Stored out{};
+    if (codeword_count() == 0) return out;
+    detail::arrange<number_bits>(stored.bytes, out.bytes, sizeof out.bytes,
+                                 [&](std::size_t i) { return model_.place_of(static_cast<std::uint32_t>(i)); });
+    return out;
   }
 
  private:
+  static constexpr int number_bits = detail::Storage<Stored>::number_bits;
+
   detail::FlashModel model_;
 };
 
@@ -9922,7 +10032,7 @@ class MicroRecognizer {
   /// One vote for each of the codewords that are nearest.
   void vote(const Stored& stored, const Point& position, const Frame& frame) noexcept {
     Activated nearest[MaxActivated];
-    const std::size_t count = find_nearest(stored, nearest);
+    const std::size_t count = find_nearest(model_.arranged(stored), nearest);
     for (std::size_t i = 0; i < count; ++i) {
       const Point center = detail::from_local(model_.center_of(nearest[i].codeword), position, frame);
       const std::uint32_t instance = model_.instance_of(nearest[i].codeword);
@@ -9931,20 +10041,33 @@ class MicroRecognizer {
   }
 
   /// Nearest first, the first ones of those that are as near; returns how many count.
-  std::size_t find_nearest(const Stored& stored, Activated (&nearest)[MaxActivated]) const noexcept {
+  std::size_t find_nearest(const Stored& arranged, Activated (&nearest)[MaxActivated]) const noexcept {
     for (Activated& none : nearest) none = {0, 0xFFFFFFFFu};
-    for (std::uint32_t codeword = 0; codeword < model_.codeword_count(); ++codeword) {
-      const std::uint32_t limit = nearest[MaxActivated - 1].distance;
-      Activated next{codeword, detail::Storage<Stored>::distance_below(stored, model_.descriptor(codeword), limit)};
-      if (!(next.distance < limit)) continue;
+    for (Activated next{0, 0};; ++next.codeword) {
+      next = first_below(arranged, next.codeword, nearest[MaxActivated - 1].distance);
+      if (next.codeword == model_.codeword_count()) break;
+      Activated moved = next;
       bool is_nearer = false;  // and then all that come later make room
       for (Activated& known : nearest) {
-        is_nearer = is_nearer || next.distance < known.distance;
-        if (is_nearer) std::swap(next, known);
+        is_nearer = is_nearer || moved.distance < known.distance;
+        if (is_nearer) std::swap(moved, known);
       }
     }
     const std::uint32_t most = model_.options().neighbors;
     return most < model_.codeword_count() ? most : model_.codeword_count();
+  }
+
+  /// The first codeword from one on whose distance is below the limit; the number of codewords if there is none. Not in
+  /// line: here most of the time goes, and all registers.
+  [[gnu::noinline]] Activated first_below(const Stored& arranged, std::uint32_t codeword,
+                                          std::uint32_t limit) const noexcept {
+    const std::uint32_t count = model_.codeword_count();
+    const Stored* row = &model_.arranged(codeword);
+    for (; codeword < count; ++codeword, ++row) {
+      const std::uint32_t distance = detail::Storage<Stored>::distance_below(arranged, *row, limit);
+      if (distance < limit) return {codeword, distance};
+    }
+    return {count, limit};
   }
 
   /// Behind all votes for its class and those before it.
@@ -15625,6 +15748,42 @@ template <int Bits>
 }  // namespace shortshot
 #endif  // SHORTSHOT_RECOGNITION_PACKED_ROWS_HPP
 
+// shortshot/recognition/telling_numbers.hpp: which numbers of descriptors tell most of them apart. Hosted only:
+// allocates.
+#ifndef SHORTSHOT_RECOGNITION_TELLING_NUMBERS_HPP
+#define SHORTSHOT_RECOGNITION_TELLING_NUMBERS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// The numbers of rows, those first that differ most from row to row, by up to 256 pairs: an order in which it is known
+/// early that two rows are too far apart. `count` rows of `size` bytes, of numbers of `Bits` bits; difference(a, b) of
+/// two numbers.
+template <int Bits, class Difference>
+[[nodiscard]] std::vector<std::uint32_t> most_telling_first(const std::uint8_t* bytes, std::size_t count,
+                                                            std::size_t size, const Difference& difference) {
+  constexpr std::size_t most_pairs = 256;
+  const std::size_t numbers = size * 8 / Bits;
+  std::vector<std::uint64_t> differences(numbers);
+  const std::size_t stride = std::max<std::size_t>(1, count / most_pairs);
+  for (std::size_t row = stride; row < count; row += stride) {
+    const std::uint8_t* const a = bytes + row * size;
+    const std::uint8_t* const b = a - stride * size;
+    for (std::size_t i = 0; i < numbers; ++i)
+      differences[i] += difference(number_at<Bits>(a, i), number_at<Bits>(b, i));
+  }
+  std::vector<std::uint32_t> order(numbers);
+  for (std::size_t i = 0; i < numbers; ++i) order[i] = static_cast<std::uint32_t>(i);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t k) {
+    return differences[i] != differences[k] ? differences[i] > differences[k] : i < k;
+  });
+  return order;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_TELLING_NUMBERS_HPP
+
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
@@ -15705,23 +15864,8 @@ class RowCodes {
   using Ops = typename Format::Ops;
   using Code = typename Format::Code;
 
-  explicit RowCodes(const Rows& rows) {
-    constexpr std::size_t most_pairs = 256;
-    const std::size_t numbers = rows.size * 8 / Format::bits;
-    std::vector<std::uint64_t> differences(numbers);
-    const std::size_t stride = std::max<std::size_t>(1, rows.count / most_pairs);
-    for (std::size_t row = stride; row < rows.count; row += stride) {
-      const std::uint8_t* const a = rows.bytes + row * rows.size;
-      const std::uint8_t* const b = a - stride * rows.size;
-      for (std::size_t i = 0; i < numbers; ++i) {
-        differences[i] += Format::distance(number_at<Format::bits>(a, i), number_at<Format::bits>(b, i));
-      }
-    }
-    for (std::size_t i = 0; i < numbers; ++i) order_.push_back(static_cast<std::uint32_t>(i));
-    std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t k) {
-      return differences[i] != differences[k] ? differences[i] > differences[k] : i < k;
-    });
-  }
+  explicit RowCodes(const Rows& rows)
+      : order_(most_telling_first<Format::bits>(rows.bytes, rows.count, rows.size, &Format::distance)) {}
 
   [[nodiscard]] std::size_t steps() const noexcept { return (order_.size() + Ops::step_codes - 1) / Ops::step_codes; }
   [[nodiscard]] std::size_t codes() const noexcept { return steps() * Ops::step_codes; }
@@ -16612,13 +16756,6 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr FileKind flash_model_file{{flash_model_magic, 8}, flash_model_version};
 
-/// storage_number of a storage_layout.
-[[nodiscard]] inline std::uint64_t storage_number_of(const std::string& layout) noexcept {
-  LayoutNumber number;
-  number.add(layout.c_str());
-  return number.value;
-}
-
 /// The smallest power of two of which 16 bits reach all centers; at least 2^-100.
 [[nodiscard]] inline float unit_of_centers(const std::vector<Codebook::Codeword>& codewords) noexcept {
   float farthest = 0.0f;
@@ -16635,6 +16772,14 @@ inline constexpr FileKind flash_model_file{{flash_model_magic, 8}, flash_model_v
 [[nodiscard]] inline std::uint16_t units_of(float coordinate, float unit) noexcept {
   const float units = std::nearbyint(coordinate / unit);
   return static_cast<std::uint16_t>(static_cast<std::int16_t>(std::max(-32767.0f, std::min(units, 32767.0f))));
+}
+
+/// Is the order of a row's numbers one? (On a board, an order that is none does no harm.)
+template <class Stored>
+[[nodiscard]] bool is_permutation(const ModelView<Stored>& model) {
+  std::vector<bool> known(model.number_count());
+  for (std::uint32_t i = 0; i < model.number_count(); ++i) known[model.place_of(i)] = true;
+  return std::find(known.begin(), known.end(), false) == known.end();
 }
 
 [[nodiscard]] inline bool fits_flash(const Codebook& codebook) noexcept {
@@ -16659,15 +16804,16 @@ inline namespace SHORTSHOT_CODE {
 /// center is kept in 16 bits a coordinate, in steps of at most a 32,000th of how far the farthest center lies from its
 /// key point.
 ///
-/// Statuses: not_trained, bad_option, other_descriptor (a recognizer of floats or halves), bad_rows (2^32 bytes or
+/// Statuses: not_trained, bad_option, other_descriptor (than storage_layout<Stored>()), bad_rows (2^32 bytes or
 /// more, more than 65536 names of a kind, a name with a character 0, a center farther away than 1e33 m); `bytes` is
 /// empty then. Allocates the bytes.
-[[nodiscard]] inline Status save_for_flash(const Recognizer& recognizer, std::vector<std::uint8_t>& bytes) {
+template <class Stored>
+[[nodiscard]] Status save_for_flash(const Recognizer& recognizer, std::vector<std::uint8_t>& bytes) {
   const detail::Codebook& codebook = detail::RecognizerAccess::codebook(recognizer);
   bytes.clear();
   if (codebook.codewords.empty()) return Status::not_trained;
   if (validate(recognizer.options()) != Status::ok) return Status::bad_option;
-  if (codebook.packed.empty()) return Status::other_descriptor;
+  if (codebook.layout != storage_layout<Stored>()) return Status::other_descriptor;
   if (!detail::fits_flash(codebook)) return Status::bad_rows;
   const float unit = detail::unit_of_centers(codebook.codewords);
   if (unit > 1e29f) return Status::bad_rows;
@@ -16677,16 +16823,17 @@ inline namespace SHORTSHOT_CODE {
   for (const std::string& name : codebook.instances) text += name + char{0};
   const std::uint64_t most = 0xFFFFFFFFu;
   if (codebook.codewords.size() > most || text.size() > most) return Status::bad_rows;
-  const auto row_bytes = static_cast<std::uint32_t>(codebook.row_size);
+  constexpr int bits = detail::Storage<Stored>::number_bits;
+  constexpr auto row_bytes = static_cast<std::uint32_t>(sizeof(Stored));
   const auto codewords = static_cast<std::uint32_t>(codebook.codewords.size());
   const auto instances = static_cast<std::uint32_t>(codebook.instances.size());
-  const detail::FlashLayout layout(row_bytes, codewords, instances, static_cast<std::uint32_t>(text.size()));
+  const detail::FlashLayout layout(row_bytes, bits, codewords, instances, static_cast<std::uint32_t>(text.size()));
   const std::uint64_t size_bytes = layout.checksum + detail::checksum_bytes;
   if (size_bytes > most) return Status::bad_rows;
 
   detail::ByteWriter to(bytes, detail::flash_model_file, static_cast<std::size_t>(size_bytes));
   to.number(static_cast<std::uint32_t>(size_bytes));
-  to.number(detail::storage_number_of(codebook.layout));
+  to.number(detail::storage_number<Stored>);
   to.real(recognizer.options().bandwidth);
   to.number(recognizer.options().neighbors);
   to.number(recognizer.options().most);
@@ -16696,6 +16843,7 @@ inline namespace SHORTSHOT_CODE {
   to.number(static_cast<std::uint32_t>(codebook.classes.size()));
   to.number(static_cast<std::uint32_t>(text.size()));
   to.real(unit);
+  to.number(std::uint32_t{bits});
   for (const std::uint32_t object_class : codebook.class_of) to.number(static_cast<std::uint16_t>(object_class));
   to.pad(static_cast<std::size_t>(layout.codewords));
   for (const detail::Codebook::Codeword& codeword : codebook.codewords) {
@@ -16704,7 +16852,16 @@ inline namespace SHORTSHOT_CODE {
     to.number(detail::units_of(codeword.center.y, unit));
     to.number(detail::units_of(codeword.center.z, unit));
   }
-  for (const std::uint8_t byte : codebook.packed) to.number(byte);
+  const std::vector<std::uint32_t> order = detail::most_telling_first<bits>(
+      codebook.packed.data(), codewords, row_bytes, [](unsigned a, unsigned b) { return (a - b) * (a - b); });
+  for (const std::uint32_t place : order) to.number(static_cast<std::uint16_t>(place));
+  to.pad(static_cast<std::size_t>(layout.rows));
+  for (std::uint32_t i = 0; i < codewords; ++i) {
+    Stored arranged;
+    detail::arrange<bits>(codebook.packed.data() + std::size_t{row_bytes} * i, arranged.bytes, sizeof arranged.bytes,
+                          [&](std::size_t n) { return order[n]; });
+    for (const std::uint8_t byte : arranged.bytes) to.number(byte);
+  }
   for (const char c : text) to.number(static_cast<std::uint8_t>(c));
   to.pad(static_cast<std::size_t>(layout.checksum));
   to.finish();
@@ -16712,30 +16869,30 @@ inline namespace SHORTSHOT_CODE {
 }
 
 /// The recognizer that gives the hypotheses that a MicroRecognizer gives with the model, bit for bit: of its codewords,
-/// with centers as they were rounded. For descriptors of a storage_layout<Stored>().
+/// with centers as they were rounded.
 ///
 /// Statuses: not_a_model, other_version, damaged_model, other_descriptor; `out` has not changed then. Allocates a few
 /// times the bytes at the most.
-[[nodiscard]] inline Status load_from_flash(const std::uint8_t* bytes, std::size_t size_bytes, std::string_view layout,
-                                            Recognizer& out) {
-  detail::FlashModel model;
+template <class Stored>
+[[nodiscard]] Status load_from_flash(const std::uint8_t* bytes, std::size_t size_bytes, Recognizer& out) {
+  ModelView<Stored> model;
   const Status status = model.open(bytes, size_bytes);
   if (status != Status::ok) return status;
-  if (model.text(0) != layout || model.storage() != detail::storage_number_of(std::string(layout)))
-    return Status::other_descriptor;
+  if (!detail::is_permutation(model)) return Status::damaged_model;
   Recognizer loaded(model.options());
   detail::Codebook& codebook = detail::RecognizerAccess::codebook(loaded);
-  codebook.layout = layout;
-  codebook.row_size = model.row_bytes();
-  for (std::uint32_t i = 0; i < model.class_count(); ++i) codebook.classes.emplace_back(model.text(1 + i));
+  codebook.layout = storage_layout<Stored>();
+  codebook.row_size = sizeof(Stored);
+  for (std::uint32_t i = 0; i < model.class_count(); ++i) codebook.classes.emplace_back(model.class_name(i));
   for (std::uint32_t i = 0; i < model.instance_count(); ++i) {
-    codebook.instances.emplace_back(model.text(1 + model.class_count() + i));
+    codebook.instances.emplace_back(model.instance_name(i));
     codebook.class_of.push_back(model.class_of(i));
   }
   for (std::uint32_t i = 0; i < model.codeword_count(); ++i) {
     codebook.codewords.push_back({model.instance_of(i), model.center_of(i)});
+    const Stored stored = model.descriptor(i);
+    codebook.packed.insert(codebook.packed.end(), stored.bytes, stored.bytes + sizeof stored.bytes);
   }
-  codebook.packed.assign(model.row(0), model.row(model.codeword_count()));
   out = std::move(loaded);
   return Status::ok;
 }

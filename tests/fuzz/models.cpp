@@ -78,7 +78,7 @@ File flash_model() {
   File file;
   require(ss::store(made_features(), stored) == Status::ok, "stored");
   require(ss::train(recognizer, stored, {0.1f, 0.0f, 0.0f}, "can", "blue") == Status::ok, "trained");
-  require(ss::save_for_flash(recognizer, file) == Status::ok, "saved");
+  require(ss::save_for_flash<ss::ByteDescriptor<D>>(recognizer, file) == Status::ok, "saved");
   return file;
 }
 
@@ -162,7 +162,7 @@ void open_flash_model(const File& file) {
   ss::ModelView<Bytes> model;
   ss::Recognizer loaded;
   const Status status = model.open(file.data(), file.size());
-  const Status of_host = ss::load_from_flash(file.data(), file.size(), ss::storage_layout<Bytes>(), loaded);
+  const Status of_host = ss::load_from_flash<Bytes>(file.data(), file.size(), loaded);
   require((status == Status::ok) || model.codeword_count() == 0, "what is refused changes nothing");
   require(status == Status::ok || of_host == status, "both refuse it for the same reason");
   if (status != Status::ok || model.codeword_count() > 64) return;
@@ -177,7 +177,7 @@ void open_flash_model(const File& file) {
   ss::MicroRecognizer<Bytes, 2, 5, 4> recognizer;
   recognizer.start(model);
   const Status added = recognizer.add(stored.descriptors[0], stored.keypoints[0].position, stored.frames[0]);
-  if (of_host != Status::ok || added != Status::ok) return;  // another text of the layout; more than four activated
+  if (of_host != Status::ok || added != Status::ok) return;  // an order that is none; more than four activated
   ss::Hypothesis found[4];
   const std::size_t count = recognizer.finish(found);
   require(ss::recognize(loaded, stored, expected) == Status::ok, "what can be loaded recognizes");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/programs/recognition.hpp"
 #include "firmware/recognition/task.hpp"
 #include "tools/io/binary_file.hpp"
 
@@ -25,7 +26,8 @@ void make(const std::string& directory) {
   const RecognitionTask task = generated_task();
   const shortshot::Recognizer recognizer = train_stored(task);
   std::vector<std::uint8_t> model;
-  if (save_for_flash(recognizer, model) != shortshot::Status::ok) throw std::runtime_error("the model cannot be saved");
+  if (shortshot::save_for_flash<recognition::Stored>(recognizer, model) != shortshot::Status::ok)
+    throw std::runtime_error("the model cannot be saved");
   write(directory + "/model.bin", std::string(model.begin(), model.end()));
   write(directory + "/views.bin", views_of(task));
   std::string facts =

@@ -19,18 +19,12 @@
 #include "flash_model.hpp"
 #include "hypothesis.hpp"
 #include "recognizer.hpp"
+#include "telling_numbers.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
 inline constexpr FileKind flash_model_file{{flash_model_magic, 8}, flash_model_version};
-
-/// storage_number of a storage_layout.
-[[nodiscard]] inline std::uint64_t storage_number_of(const std::string& layout) noexcept {
-  LayoutNumber number;
-  number.add(layout.c_str());
-  return number.value;
-}
 
 /// The smallest power of two of which 16 bits reach all centers; at least 2^-100.
 [[nodiscard]] inline float unit_of_centers(const std::vector<Codebook::Codeword>& codewords) noexcept {
@@ -48,6 +42,14 @@ inline constexpr FileKind flash_model_file{{flash_model_magic, 8}, flash_model_v
 [[nodiscard]] inline std::uint16_t units_of(float coordinate, float unit) noexcept {
   const float units = std::nearbyint(coordinate / unit);
   return static_cast<std::uint16_t>(static_cast<std::int16_t>(std::max(-32767.0f, std::min(units, 32767.0f))));
+}
+
+/// Is the order of a row's numbers one? (On a board, an order that is none does no harm.)
+template <class Stored>
+[[nodiscard]] bool is_permutation(const ModelView<Stored>& model) {
+  std::vector<bool> known(model.number_count());
+  for (std::uint32_t i = 0; i < model.number_count(); ++i) known[model.place_of(i)] = true;
+  return std::find(known.begin(), known.end(), false) == known.end();
 }
 
 [[nodiscard]] inline bool fits_flash(const Codebook& codebook) noexcept {
@@ -72,15 +74,16 @@ inline namespace SHORTSHOT_CODE {
 /// center is kept in 16 bits a coordinate, in steps of at most a 32,000th of how far the farthest center lies from its
 /// key point.
 ///
-/// Statuses: not_trained, bad_option, other_descriptor (a recognizer of floats or halves), bad_rows (2^32 bytes or
+/// Statuses: not_trained, bad_option, other_descriptor (than storage_layout<Stored>()), bad_rows (2^32 bytes or
 /// more, more than 65536 names of a kind, a name with a character 0, a center farther away than 1e33 m); `bytes` is
 /// empty then. Allocates the bytes.
-[[nodiscard]] inline Status save_for_flash(const Recognizer& recognizer, std::vector<std::uint8_t>& bytes) {
+template <class Stored>
+[[nodiscard]] Status save_for_flash(const Recognizer& recognizer, std::vector<std::uint8_t>& bytes) {
   const detail::Codebook& codebook = detail::RecognizerAccess::codebook(recognizer);
   bytes.clear();
   if (codebook.codewords.empty()) return Status::not_trained;
   if (validate(recognizer.options()) != Status::ok) return Status::bad_option;
-  if (codebook.packed.empty()) return Status::other_descriptor;
+  if (codebook.layout != storage_layout<Stored>()) return Status::other_descriptor;
   if (!detail::fits_flash(codebook)) return Status::bad_rows;
   const float unit = detail::unit_of_centers(codebook.codewords);
   if (unit > 1e29f) return Status::bad_rows;
@@ -90,16 +93,17 @@ inline namespace SHORTSHOT_CODE {
   for (const std::string& name : codebook.instances) text += name + char{0};
   const std::uint64_t most = 0xFFFFFFFFu;
   if (codebook.codewords.size() > most || text.size() > most) return Status::bad_rows;
-  const auto row_bytes = static_cast<std::uint32_t>(codebook.row_size);
+  constexpr int bits = detail::Storage<Stored>::number_bits;
+  constexpr auto row_bytes = static_cast<std::uint32_t>(sizeof(Stored));
   const auto codewords = static_cast<std::uint32_t>(codebook.codewords.size());
   const auto instances = static_cast<std::uint32_t>(codebook.instances.size());
-  const detail::FlashLayout layout(row_bytes, codewords, instances, static_cast<std::uint32_t>(text.size()));
+  const detail::FlashLayout layout(row_bytes, bits, codewords, instances, static_cast<std::uint32_t>(text.size()));
   const std::uint64_t size_bytes = layout.checksum + detail::checksum_bytes;
   if (size_bytes > most) return Status::bad_rows;
 
   detail::ByteWriter to(bytes, detail::flash_model_file, static_cast<std::size_t>(size_bytes));
   to.number(static_cast<std::uint32_t>(size_bytes));
-  to.number(detail::storage_number_of(codebook.layout));
+  to.number(detail::storage_number<Stored>);
   to.real(recognizer.options().bandwidth);
   to.number(recognizer.options().neighbors);
   to.number(recognizer.options().most);
@@ -109,6 +113,7 @@ inline namespace SHORTSHOT_CODE {
   to.number(static_cast<std::uint32_t>(codebook.classes.size()));
   to.number(static_cast<std::uint32_t>(text.size()));
   to.real(unit);
+  to.number(std::uint32_t{bits});
   for (const std::uint32_t object_class : codebook.class_of) to.number(static_cast<std::uint16_t>(object_class));
   to.pad(static_cast<std::size_t>(layout.codewords));
   for (const detail::Codebook::Codeword& codeword : codebook.codewords) {
@@ -117,7 +122,16 @@ inline namespace SHORTSHOT_CODE {
     to.number(detail::units_of(codeword.center.y, unit));
     to.number(detail::units_of(codeword.center.z, unit));
   }
-  for (const std::uint8_t byte : codebook.packed) to.number(byte);
+  const std::vector<std::uint32_t> order = detail::most_telling_first<bits>(
+      codebook.packed.data(), codewords, row_bytes, [](unsigned a, unsigned b) { return (a - b) * (a - b); });
+  for (const std::uint32_t place : order) to.number(static_cast<std::uint16_t>(place));
+  to.pad(static_cast<std::size_t>(layout.rows));
+  for (std::uint32_t i = 0; i < codewords; ++i) {
+    Stored arranged;
+    detail::arrange<bits>(codebook.packed.data() + std::size_t{row_bytes} * i, arranged.bytes, sizeof arranged.bytes,
+                          [&](std::size_t n) { return order[n]; });
+    for (const std::uint8_t byte : arranged.bytes) to.number(byte);
+  }
   for (const char c : text) to.number(static_cast<std::uint8_t>(c));
   to.pad(static_cast<std::size_t>(layout.checksum));
   to.finish();
@@ -125,30 +139,30 @@ inline namespace SHORTSHOT_CODE {
 }
 
 /// The recognizer that gives the hypotheses that a MicroRecognizer gives with the model, bit for bit: of its codewords,
-/// with centers as they were rounded. For descriptors of a storage_layout<Stored>().
+/// with centers as they were rounded.
 ///
 /// Statuses: not_a_model, other_version, damaged_model, other_descriptor; `out` has not changed then. Allocates a few
 /// times the bytes at the most.
-[[nodiscard]] inline Status load_from_flash(const std::uint8_t* bytes, std::size_t size_bytes, std::string_view layout,
-                                            Recognizer& out) {
-  detail::FlashModel model;
+template <class Stored>
+[[nodiscard]] Status load_from_flash(const std::uint8_t* bytes, std::size_t size_bytes, Recognizer& out) {
+  ModelView<Stored> model;
   const Status status = model.open(bytes, size_bytes);
   if (status != Status::ok) return status;
-  if (model.text(0) != layout || model.storage() != detail::storage_number_of(std::string(layout)))
-    return Status::other_descriptor;
+  if (!detail::is_permutation(model)) return Status::damaged_model;
   Recognizer loaded(model.options());
   detail::Codebook& codebook = detail::RecognizerAccess::codebook(loaded);
-  codebook.layout = layout;
-  codebook.row_size = model.row_bytes();
-  for (std::uint32_t i = 0; i < model.class_count(); ++i) codebook.classes.emplace_back(model.text(1 + i));
+  codebook.layout = storage_layout<Stored>();
+  codebook.row_size = sizeof(Stored);
+  for (std::uint32_t i = 0; i < model.class_count(); ++i) codebook.classes.emplace_back(model.class_name(i));
   for (std::uint32_t i = 0; i < model.instance_count(); ++i) {
-    codebook.instances.emplace_back(model.text(1 + model.class_count() + i));
+    codebook.instances.emplace_back(model.instance_name(i));
     codebook.class_of.push_back(model.class_of(i));
   }
   for (std::uint32_t i = 0; i < model.codeword_count(); ++i) {
     codebook.codewords.push_back({model.instance_of(i), model.center_of(i)});
+    const Stored stored = model.descriptor(i);
+    codebook.packed.insert(codebook.packed.end(), stored.bytes, stored.bytes + sizeof stored.bytes);
   }
-  codebook.packed.assign(model.row(0), model.row(model.codeword_count()));
   out = std::move(loaded);
   return Status::ok;
 }

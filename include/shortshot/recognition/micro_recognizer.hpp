@@ -146,7 +146,7 @@ class MicroRecognizer {
   /// One vote for each of the codewords that are nearest.
   void vote(const Stored& stored, const Point& position, const Frame& frame) noexcept {
     Activated nearest[MaxActivated];
-    const std::size_t count = find_nearest(stored, nearest);
+    const std::size_t count = find_nearest(model_.arranged(stored), nearest);
     for (std::size_t i = 0; i < count; ++i) {
       const Point center = detail::from_local(model_.center_of(nearest[i].codeword), position, frame);
       const std::uint32_t instance = model_.instance_of(nearest[i].codeword);
@@ -155,20 +155,33 @@ class MicroRecognizer {
   }
 
   /// Nearest first, the first ones of those that are as near; returns how many count.
-  std::size_t find_nearest(const Stored& stored, Activated (&nearest)[MaxActivated]) const noexcept {
+  std::size_t find_nearest(const Stored& arranged, Activated (&nearest)[MaxActivated]) const noexcept {
     for (Activated& none : nearest) none = {0, 0xFFFFFFFFu};
-    for (std::uint32_t codeword = 0; codeword < model_.codeword_count(); ++codeword) {
-      const std::uint32_t limit = nearest[MaxActivated - 1].distance;
-      Activated next{codeword, detail::Storage<Stored>::distance_below(stored, model_.descriptor(codeword), limit)};
-      if (!(next.distance < limit)) continue;
+    for (Activated next{0, 0};; ++next.codeword) {
+      next = first_below(arranged, next.codeword, nearest[MaxActivated - 1].distance);
+      if (next.codeword == model_.codeword_count()) break;
+      Activated moved = next;
       bool is_nearer = false;  // and then all that come later make room
       for (Activated& known : nearest) {
-        is_nearer = is_nearer || next.distance < known.distance;
-        if (is_nearer) std::swap(next, known);
+        is_nearer = is_nearer || moved.distance < known.distance;
+        if (is_nearer) std::swap(moved, known);
       }
     }
     const std::uint32_t most = model_.options().neighbors;
     return most < model_.codeword_count() ? most : model_.codeword_count();
+  }
+
+  /// The first codeword from one on whose distance is below the limit; the number of codewords if there is none. Not in
+  /// line: here most of the time goes, and all registers.
+  [[gnu::noinline]] Activated first_below(const Stored& arranged, std::uint32_t codeword,
+                                          std::uint32_t limit) const noexcept {
+    const std::uint32_t count = model_.codeword_count();
+    const Stored* row = &model_.arranged(codeword);
+    for (; codeword < count; ++codeword, ++row) {
+      const std::uint32_t distance = detail::Storage<Stored>::distance_below(arranged, *row, limit);
+      if (distance < limit) return {codeword, distance};
+    }
+    return {count, limit};
   }
 
   /// Behind all votes for its class and those before it.

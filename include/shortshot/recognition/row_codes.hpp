@@ -16,6 +16,7 @@
 #include "../config.hpp"
 #include "../store/code_distance.hpp"
 #include "packed_rows.hpp"
+#include "telling_numbers.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -97,23 +98,8 @@ class RowCodes {
   using Ops = typename Format::Ops;
   using Code = typename Format::Code;
 
-  explicit RowCodes(const Rows& rows) {
-    constexpr std::size_t most_pairs = 256;
-    const std::size_t numbers = rows.size * 8 / Format::bits;
-    std::vector<std::uint64_t> differences(numbers);
-    const std::size_t stride = std::max<std::size_t>(1, rows.count / most_pairs);
-    for (std::size_t row = stride; row < rows.count; row += stride) {
-      const std::uint8_t* const a = rows.bytes + row * rows.size;
-      const std::uint8_t* const b = a - stride * rows.size;
-      for (std::size_t i = 0; i < numbers; ++i) {
-        differences[i] += Format::distance(number_at<Format::bits>(a, i), number_at<Format::bits>(b, i));
-      }
-    }
-    for (std::size_t i = 0; i < numbers; ++i) order_.push_back(static_cast<std::uint32_t>(i));
-    std::sort(order_.begin(), order_.end(), [&](std::uint32_t i, std::uint32_t k) {
-      return differences[i] != differences[k] ? differences[i] > differences[k] : i < k;
-    });
-  }
+  explicit RowCodes(const Rows& rows)
+      : order_(most_telling_first<Format::bits>(rows.bytes, rows.count, rows.size, &Format::distance)) {}
 
   [[nodiscard]] std::size_t steps() const noexcept { return (order_.size() + Ops::step_codes - 1) / Ops::step_codes; }
   [[nodiscard]] std::size_t codes() const noexcept { return steps() * Ops::step_codes; }

@@ -25,6 +25,37 @@ template <int Bits>
   return number & mask;
 }
 
+/// Writes one where all bits are 0 so far.
+template <int Bits>
+[[gnu::always_inline]] inline void put_number(std::uint8_t* bytes, std::size_t place, unsigned number) noexcept {
+  const std::size_t bit = place * static_cast<std::size_t>(Bits);
+  const unsigned shifted = number << bit % 8;
+  bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] | (shifted & 255u));
+  if (shifted > 255u) bytes[bit / 8 + 1] = static_cast<std::uint8_t>(bytes[bit / 8 + 1] | shifted >> 8);
+}
+
+/// Numbers i of `Bits` bits, number(i), one behind the other in so many bytes as they take. In place, too, for numbers
+/// that lie behind where they are written.
+template <int Bits, class Number>
+[[gnu::always_inline]] inline void write_numbers(std::uint8_t* bytes, int count, const Number& number) noexcept {
+  unsigned waiting = 0;
+  int bits = 0;  // that wait
+  for (int i = 0; i < count; ++i) {
+    waiting |= number(i) << bits;
+    for (bits += Bits; bits >= 8 || (bits > 0 && i == count - 1); bits -= 8) {
+      *bytes++ = static_cast<std::uint8_t>(waiting & 255u);
+      waiting >>= 8;
+    }
+  }
+}
+
+/// The numbers of a row of so many bytes in another order: number i is number place(i) of the row.
+template <int Bits, class Place>
+inline void arrange(const std::uint8_t* row, std::uint8_t* out, std::size_t size, const Place& place) noexcept {
+  write_numbers<Bits>(out, static_cast<int>(8 * size / Bits),
+                      [&](int i) { return number_at<Bits>(row, place(static_cast<std::size_t>(i))); });
+}
+
 /// The sum of squared differences of the numbers in `Width` bytes, in a form that compilers turn into lanes at -O2,
 /// too.
 template <int Bits, std::size_t Width>

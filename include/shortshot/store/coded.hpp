@@ -119,16 +119,9 @@ inline namespace SHORTSHOT_CODE {
 ///     if (describe_at<D>(cloud, search, index, 0.04f, workspace, d.values) == Status::ok) quantize(d.values, d.bytes);
 template <class D, int Bits, int Scale>
 void quantize(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept {
-  std::uint8_t* byte = out.bytes;  // of a type that may alias the floats
-  unsigned waiting = 0;
-  int count = 0;  // of bits that wait
-  for (int i = 0; i < D::size; ++i) {
-    waiting |= detail::code_of<Bits>(values[i], static_cast<float>(Scale), detail::SignsOf<D>::at(i)) << count;
-    for (count += Bits; count >= 8 || (count > 0 && i == D::size - 1); count -= 8) {
-      *byte++ = static_cast<std::uint8_t>(waiting & 255u);
-      waiting >>= 8;
-    }
-  }
+  detail::write_numbers<Bits>(out.bytes, D::size, [&](int i) {
+    return detail::code_of<Bits>(values[i], static_cast<float>(Scale), detail::SignsOf<D>::at(i));
+  });
 }
 
 /// The values that codes stand for, D::size floats. No allocation, no error, reentrant; the same bits on every machine.

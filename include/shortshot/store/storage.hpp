@@ -16,9 +16,9 @@
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
-/// The descriptor that a storage is of, what its rows are made of in files, how it is said, how it is made,
-/// and how far two of them are apart in whole numbers, if that is below a limit; else any number that is not. (Halves
-/// are no whole numbers.)
+/// The descriptor that a storage is of, what its rows are made of in files, how it is said, how it is made; of how many
+/// bits the numbers of a row are, and how far two rows are apart in whole numbers, in whatever order these are, if that
+/// is below a limit; else any number that is not. (Halves are no whole numbers.)
 template <class Stored>
 struct Storage;
 template <class D>
@@ -35,14 +35,15 @@ template <class D, int Bits, int Scale>
 struct Storage<CodedDescriptor<D, Bits, Scale>> {
   using Descriptor = D;
   using Value = std::uint8_t;
+  static constexpr int number_bits = Bits;
   template <class Text>
   static constexpr void add_name(Text& text) {
     add_all(text, "codes of ", Bits, " bits, steps of 1/", Scale);
   }
   static void make(const float* values, CodedDescriptor<D, Bits, Scale>& out) noexcept { quantize(values, out); }
-  [[nodiscard]] static std::uint32_t distance_below(const CodedDescriptor<D, Bits, Scale>& a,
-                                                    const CodedDescriptor<D, Bits, Scale>& b,
-                                                    std::uint32_t limit) noexcept {
+  [[nodiscard]] SHORTSHOT_INLINE static std::uint32_t distance_below(const CodedDescriptor<D, Bits, Scale>& a,
+                                                                     const CodedDescriptor<D, Bits, Scale>& b,
+                                                                     std::uint32_t limit) noexcept {
     return squared_code_distance_below<Bits>(a.bytes, b.bytes, sizeof a.bytes, limit);
   }
 };
@@ -50,13 +51,15 @@ template <class D, int Group>
 struct Storage<BinaryDescriptor<D, Group>> {
   using Descriptor = D;
   using Value = std::uint8_t;
+  static constexpr int number_bits = 1;
   template <class Text>
   static constexpr void add_name(Text& text) {
     add_all(text, "bits of groups of ", Group);
   }
   static void make(const float* values, BinaryDescriptor<D, Group>& out) noexcept { binarize(values, out); }
-  [[nodiscard]] static std::uint32_t distance_below(const BinaryDescriptor<D, Group>& a,
-                                                    const BinaryDescriptor<D, Group>& b, std::uint32_t limit) noexcept {
+  [[nodiscard]] SHORTSHOT_INLINE static std::uint32_t distance_below(const BinaryDescriptor<D, Group>& a,
+                                                                     const BinaryDescriptor<D, Group>& b,
+                                                                     std::uint32_t limit) noexcept {
     return hamming_distance_below(a.bytes, b.bytes, sizeof a.bytes, limit);
   }
 };
@@ -64,13 +67,15 @@ template <class D, int Bits, int Draws>
 struct Storage<SumBits<D, Bits, Draws>> {
   using Descriptor = D;
   using Value = std::uint8_t;
+  static constexpr int number_bits = 1;
   template <class Text>
   static constexpr void add_name(Text& text) {
     add_all(text, Bits, " bits of sums of ", Draws, ", steps of 1/", code_scale<D, 4>);
   }
   static void make(const float* values, SumBits<D, Bits, Draws>& out) noexcept { binarize(values, out); }
-  [[nodiscard]] static std::uint32_t distance_below(const SumBits<D, Bits, Draws>& a, const SumBits<D, Bits, Draws>& b,
-                                                    std::uint32_t limit) noexcept {
+  [[nodiscard]] SHORTSHOT_INLINE static std::uint32_t distance_below(const SumBits<D, Bits, Draws>& a,
+                                                                     const SumBits<D, Bits, Draws>& b,
+                                                                     std::uint32_t limit) noexcept {
     return hamming_distance_below(a.bytes, b.bytes, sizeof a.bytes, limit);
   }
 };

@@ -35,7 +35,7 @@ ss::Recognizer trained() {
 
 Bytes model_bytes() {
   Bytes bytes;
-  REQUIRE(ss::save_for_flash(trained(), bytes) == Status::ok);
+  REQUIRE(ss::save_for_flash<Stored>(trained(), bytes) == Status::ok);
   return bytes;
 }
 
@@ -90,14 +90,17 @@ TEST_CASE("flash model: what was trained is read in place") {
     CHECK(std::fabs(center.x - exact.x) <= 0.5f * unit);
     CHECK(std::fabs(center.y - exact.y) <= 0.5f * unit);
     CHECK(std::fabs(center.z - exact.z) <= 0.5f * unit);
-    CHECK(std::memcmp(&model.descriptor(i), codebook.packed.data() + i * sizeof(Stored), sizeof(Stored)) == 0);
+    const Stored descriptor = model.descriptor(i);
+    CHECK(std::memcmp(&descriptor, codebook.packed.data() + i * sizeof(Stored), sizeof(Stored)) == 0);
+    const Stored arranged = model.arranged(descriptor);
+    CHECK(std::memcmp(&arranged, &model.arranged(i), sizeof(Stored)) == 0);
   }
   CHECK(unit < farthest / 16'383.0f);
 
   ss::Recognizer loaded;
-  REQUIRE(ss::load_from_flash(bytes.data(), bytes.size(), ss::storage_layout<Stored>(), loaded) == Status::ok);
+  REQUIRE(ss::load_from_flash<Stored>(bytes.data(), bytes.size(), loaded) == Status::ok);
   Bytes again;
-  REQUIRE(ss::save_for_flash(loaded, again) == Status::ok);
+  REQUIRE(ss::save_for_flash<Stored>(loaded, again) == Status::ok);
   CHECK(again == bytes);
   CHECK(ss::flash_model_header({1, 2, 255}, "cups")
             .find("alignas(4) inline constexpr unsigned char cups[] = {\n    1, 2, 255,\n}") != std::string::npos);
@@ -118,21 +121,21 @@ TEST_CASE("flash model: anything else is refused, by a status that says what it 
   CHECK(model.open(other.data(), other.size()) == Status::other_version);
   CHECK(model.codeword_count() == 0);
   ss::Recognizer loaded;
-  CHECK(ss::load_from_flash(bytes.data(), bytes.size(), ss::layout_of<D>(), loaded) == Status::other_descriptor);
+  CHECK(ss::load_from_flash<ss::ByteDescriptor<D>>(bytes.data(), bytes.size(), loaded) == Status::other_descriptor);
 
   Bytes out{1};
-  CHECK(ss::save_for_flash(ss::Recognizer(), out) == Status::not_trained);
+  CHECK(ss::save_for_flash<Stored>(ss::Recognizer(), out) == Status::not_trained);
   CHECK(out.empty());
   ss::Recognizer floats;
   REQUIRE(ss::train(floats, view_of<D>(1, no_motion, 1), {0.0f, 0.0f, 0.0f}, "a", "b") == Status::ok);
-  CHECK(ss::save_for_flash(floats, out) == Status::other_descriptor);
+  CHECK(ss::save_for_flash<Stored>(floats, out) == Status::other_descriptor);
   ss::Recognizer zero;
   REQUIRE(ss::train(zero, stored<Stored>(view_of<D>(1, no_motion, 1)), {0.0f, 0.0f, 0.0f}, "a", std::string(1, '\0')) ==
           Status::ok);
-  CHECK(ss::save_for_flash(zero, out) == Status::bad_rows);
+  CHECK(ss::save_for_flash<Stored>(zero, out) == Status::bad_rows);
   ss::Recognizer far;
   REQUIRE(ss::train(far, stored<Stored>(view_of<D>(1, no_motion, 1)), {3e37f, 0.0f, 0.0f}, "a", "b") == Status::ok);
-  CHECK(ss::save_for_flash(far, out) == Status::bad_rows);
+  CHECK(ss::save_for_flash<Stored>(far, out) == Status::bad_rows);
 }
 
 TEST_CASE("flash model: every byte that is wrong, and every end that is too early, is noticed") {
@@ -169,6 +172,37 @@ TEST_CASE("flash model: behind a right checksum nothing wrong does harm") {
     }
   }
   CHECK(refused > 60);
+}
+
+TEST_CASE("flash model: rows begin with what tells codewords apart; an order that is none does no harm") {
+  Bytes bytes = model_bytes();
+  ss::ModelView<Stored> model;
+  REQUIRE(model.open(bytes.data(), bytes.size()) == Status::ok);
+  const auto differences = [&](std::uint32_t number) {
+    unsigned sum = 0;
+    for (std::uint32_t i = 1; i < model.codeword_count(); ++i) {
+      const auto at = [&](std::uint32_t codeword) {
+        return static_cast<int>(ss::detail::number_at<4>(model.arranged(codeword).bytes, number));
+      };
+      sum += static_cast<unsigned>((at(i) - at(i - 1)) * (at(i) - at(i - 1)));
+    }
+    return sum;
+  };
+  std::vector<bool> placed(model.number_count());
+  for (std::uint32_t i = 0; i < model.number_count(); ++i) {
+    CHECK_FALSE(placed[model.place_of(i)]);
+    placed[model.place_of(i)] = true;
+    if (i > 0) CHECK(differences(i) <= differences(i - 1));
+  }
+
+  const ss::detail::FlashLayout layout(sizeof(Stored), 4, model.codeword_count(), model.instance_count(), 0);
+  bytes[layout.order] = bytes[layout.order + 2];
+  bytes[layout.order + 1] = bytes[layout.order + 3];
+  bytes = with_checksum(bytes);
+  REQUIRE(model.open(bytes.data(), bytes.size()) == Status::ok);
+  use(model);
+  ss::Recognizer loaded;
+  CHECK(ss::load_from_flash<Stored>(bytes.data(), bytes.size(), loaded) == Status::damaged_model);
 }
 
 }  // namespace test_flash_model

@@ -60,11 +60,11 @@ void check_same(const ss::RecognizerOptions& options) {
   CAPTURE(ss::storage_layout<Stored>());
   CAPTURE(options.neighbors);
   std::vector<std::uint8_t> bytes;
-  REQUIRE(ss::save_for_flash(trained<Stored>(options), bytes) == Status::ok);
+  REQUIRE(ss::save_for_flash<Stored>(trained<Stored>(options), bytes) == Status::ok);
   ss::ModelView<Stored> model;
   REQUIRE(model.open(bytes.data(), bytes.size()) == Status::ok);
   ss::Recognizer hosted;
-  REQUIRE(ss::load_from_flash(bytes.data(), bytes.size(), ss::storage_layout<Stored>(), hosted) == Status::ok);
+  REQUIRE(ss::load_from_flash<Stored>(bytes.data(), bytes.size(), hosted) == Status::ok);
 
   ss::MicroRecognizer<Stored, keypoints, 64, 3> recognizer;
   std::size_t hypotheses = 0;
@@ -119,9 +119,9 @@ TEST_CASE("micro recognizer: from points to hypotheses as extract() and recogniz
   ss::Recognizer trained;
   REQUIRE(ss::train(trained, stored<Stored>(features), {0.0f, 0.0f, 0.9f}, "patch", "one") == Status::ok);
   std::vector<std::uint8_t> bytes;
-  REQUIRE(ss::save_for_flash(trained, bytes) == Status::ok);
+  REQUIRE(ss::save_for_flash<Stored>(trained, bytes) == Status::ok);
   ss::Recognizer hosted;
-  REQUIRE(ss::load_from_flash(bytes.data(), bytes.size(), ss::storage_layout<Stored>(), hosted) == Status::ok);
+  REQUIRE(ss::load_from_flash<Stored>(bytes.data(), bytes.size(), hosted) == Status::ok);
   ss::ModelView<Stored> model;
   REQUIRE(model.open(bytes.data(), bytes.size()) == Status::ok);
 
@@ -155,7 +155,7 @@ TEST_CASE("micro recognizer: what cannot be is a status, and casts no vote") {
   CHECK(untrained.finish(found) == 0);
 
   std::vector<std::uint8_t> bytes;
-  REQUIRE(ss::save_for_flash(trained<Stored>({0.03f, 2, 8}), bytes) == Status::ok);
+  REQUIRE(ss::save_for_flash<Stored>(trained<Stored>({0.03f, 2, 8}), bytes) == Status::ok);
   ss::ModelView<Stored> model;
   REQUIRE(model.open(bytes.data(), bytes.size()) == Status::ok);
   ss::MicroRecognizer<Stored, 2, 64> of_one;
