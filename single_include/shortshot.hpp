@@ -9231,13 +9231,14 @@ class MersenneTwister {
   std::size_t at_ = 0;
 };
 
-/// The first numbers of mt19937 with seed 1, modulo `Size`.
+/// The first numbers of mt19937 with seed 1, modulo `Size`; in bytes, if they fit.
 template <int Size, std::size_t Count>
 struct Draws {
-  std::uint16_t of[Count];
+  using Draw = std::conditional_t<(Size <= 256), std::uint8_t, std::uint16_t>;
+  Draw of[Count];
   constexpr Draws() noexcept : of{} {
     MersenneTwister next(1);
-    for (std::uint16_t& draw : of) draw = static_cast<std::uint16_t>(next() % static_cast<std::uint32_t>(Size));
+    for (Draw& draw : of) draw = static_cast<Draw>(next() % static_cast<std::uint32_t>(Size));
   }
 };
 template <int Size, std::size_t Count>
@@ -9273,7 +9274,7 @@ inline namespace SHORTSHOT_CODE {
 template <class D, int Scale, int Bits, int Draws>
 void binarize(const NibbleDescriptor<D, Scale>& nibbles, SumBits<D, Bits, Draws>& out) noexcept {
   constexpr auto& draws = detail::draws<D::size, static_cast<std::size_t>(Bits) * Draws>;
-  const std::uint16_t* draw = draws.of;
+  const auto* draw = draws.of;
   for (std::uint8_t& byte : out.bytes) {
     unsigned bits = 0;
     for (int bit = 0; bit < 8; ++bit) {
@@ -9707,11 +9708,11 @@ struct FlashLayout {
 
   [[nodiscard]] static constexpr std::uint64_t whole(std::uint64_t bytes) noexcept { return (bytes + 3) / 4 * 4; }
 
-  constexpr FlashLayout(std::uint32_t row_bytes, std::uint32_t number_bits, std::uint32_t codeword_count,
+  constexpr FlashLayout(std::uint32_t row_bytes, std::uint32_t number_count, std::uint32_t codeword_count,
                         std::uint32_t instance_count, std::uint32_t text_bytes) noexcept
       : codewords(header + whole(2 * std::uint64_t{instance_count})),
         order(codewords + codeword * codeword_count),
-        rows(order + whole(2 * (8 * std::uint64_t{row_bytes} / number_bits))),
+        rows(order + whole(2 * std::uint64_t{number_count})),
         text(rows + std::uint64_t{row_bytes} * codeword_count),
         checksum(whole(text + text_bytes)) {}
 };
@@ -9782,9 +9783,10 @@ class FlashModel {
     text_bytes_ = number32(bytes + 52);
     unit_ = math::float_of(number32(bytes + 56));
     number_bits_ = number32(bytes + 60);
-    if (number_bits_ < 1 || number_bits_ > 8) return false;
-    numbers_ = static_cast<std::uint32_t>(8 * std::uint64_t{row_bytes_} / number_bits_);
-    const FlashLayout layout(row_bytes_, number_bits_, codewords_, instances_, text_bytes_);
+    const bool has_numbers = row_bytes_ > 0 && row_bytes_ <= 66051 && number_bits_ >= 1 && number_bits_ <= 8;
+    if (!has_numbers) return false;
+    numbers_ = 8 * row_bytes_ / number_bits_;
+    const FlashLayout layout(row_bytes_, numbers_, codewords_, instances_, text_bytes_);
     if (layout.checksum + checksum_bytes != size_bytes) return false;
     codewords_begin_ = static_cast<std::size_t>(layout.codewords);
     order_ = static_cast<std::size_t>(layout.order);
@@ -9796,8 +9798,8 @@ class FlashModel {
 
   /// A checksum may be right by chance, or by design: nothing that is read later may be wrong.
   [[nodiscard]] bool is_sound() const noexcept {
-    bool sound = validate(options_) == Status::ok && row_bytes_ > 0 && row_bytes_ <= 66051 && codewords_ > 0 &&
-                 instances_ <= 65536 && classes_ <= 65536 && unit_ >= 1e-30f && unit_ <= 1e30f;
+    bool sound = validate(options_) == Status::ok && codewords_ > 0 && instances_ <= 65536 && classes_ <= 65536 &&
+                 unit_ >= 1e-30f && unit_ <= 1e30f;
     for (std::uint32_t i = 0; sound && i < instances_; ++i) sound = class_of(i) < classes_;
     for (std::uint32_t i = 0; sound && i < codewords_; ++i) sound = instance_of(i) < instances_;
     for (std::uint32_t i = 0; sound && i < number_count(); ++i) sound = place_of(i) < number_count();
@@ -16827,7 +16829,8 @@ template <class Stored>
   constexpr auto row_bytes = static_cast<std::uint32_t>(sizeof(Stored));
   const auto codewords = static_cast<std::uint32_t>(codebook.codewords.size());
   const auto instances = static_cast<std::uint32_t>(codebook.instances.size());
-  const detail::FlashLayout layout(row_bytes, bits, codewords, instances, static_cast<std::uint32_t>(text.size()));
+  const detail::FlashLayout layout(row_bytes, 8 * row_bytes / bits, codewords, instances,
+                                   static_cast<std::uint32_t>(text.size()));
   const std::uint64_t size_bytes = layout.checksum + detail::checksum_bytes;
   if (size_bytes > most) return Status::bad_rows;
 

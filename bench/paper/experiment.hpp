@@ -11,10 +11,10 @@
 #include "paper/campaign/report.hpp"
 #include "paper/campaign/statistics.hpp"
 #include "paper/configuration.hpp"
-#include "paper/datasets/dataset_files.hpp"
 #include "paper/options.hpp"
 #include "paper/view.hpp"
 #include "tools/io/folder_name.hpp"
+#include "tools/labels/dataset_files.hpp"
 
 namespace shortshot_bench::paper {
 

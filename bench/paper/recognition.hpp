@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "paper/configuration.hpp"
-#include "paper/datasets/view_sets.hpp"
 #include "paper/datasets/virtual_views.hpp"
 #include "paper/view.hpp"
+#include "tools/labels/view_sets.hpp"
 
 namespace shortshot_bench::paper {
 

@@ -1,62 +1,143 @@
-// firmware_recognition: a model and views for the programs that recognize on microcontrollers, and how well the hosted
+// firmware_recognition: a model and views for the programs that recognize on microcontrollers, and how well hosted
 // recognizers do on them.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
-#include <stdexcept>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "firmware/programs/recognition.hpp"
+#include "firmware/recognition/segments.hpp"
 #include "firmware/recognition/task.hpp"
 #include "tools/io/binary_file.hpp"
+#include "tools/io/require_ok.hpp"
 
 namespace {
 
 using namespace shortshot_bench;
 using namespace shortshot_bench::firmware;
 
+struct Options {
+  std::string directory;
+  std::string segments;
+  std::vector<std::size_t> kilobytes;
+};
+
 void write(const std::string& path, const std::string& bytes) {
   BinaryFile file(path);
   file.write(bytes);
   file.close();
 }
+template <class Number>
+std::string bytes_of(const std::vector<Number>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
+}
 
-void make(const std::string& directory) {
-  const RecognitionTask task = generated_task();
+/// A file of facts, as the programs on boards print them.
+class HostFacts {
+ public:
+  HostFacts(const std::string& target, const std::string& configuration)
+      : text_("program recognition_on_host\ntarget " + target + "\nlevel O2\nconfiguration " + configuration +
+              "\nworkspace full\n") {}
+  void add(const std::string& name, std::size_t value) { text_ += "fact " + name + " " + std::to_string(value) + "\n"; }
+  void add_hash(const std::string& configuration, std::uint32_t value) {
+    char digits[9];
+    std::snprintf(digits, sizeof digits, "%08x", static_cast<unsigned>(value));
+    text_ += "hash " + configuration + " " + digits + "\n";
+  }
+  void write_to(const std::string& path) const { write(path, text_ + "exit 0\n"); }
+
+ private:
+  std::string text_;
+};
+
+/// The model, the views, and what this machine says of them.
+void make(const std::string& directory, const std::string& name, const RecognitionTask& task) {
   const shortshot::Recognizer recognizer = train_stored(task);
-  std::vector<std::uint8_t> model;
-  if (shortshot::save_for_flash<recognition::Stored>(recognizer, model) != shortshot::Status::ok)
-    throw std::runtime_error("the model cannot be saved");
-  write(directory + "/model.bin", std::string(model.begin(), model.end()));
-  write(directory + "/views.bin", views_of(task));
-  std::string facts =
-      "program recognition_on_host\ntarget host_cshot1344_floats\nlevel O2\nconfiguration Recognition\nworkspace "
-      "full\n";
-  const auto fact = [&](const char* name, std::size_t value) {
-    facts += std::string("fact ") + name + " " + std::to_string(value) + "\n";
+  std::vector<std::uint8_t> bytes;
+  require(shortshot::save_for_flash<recognition::Stored>(recognizer, bytes));
+  const std::vector<std::uint32_t> views = views_of(task, recognizer);
+  write(directory + "/model.bin", bytes_of(bytes));
+  write(directory + "/views.bin", bytes_of(views));
+
+  shortshot::ModelView<recognition::Stored> model;
+  require(model.open(bytes.data(), bytes.size()));
+  const auto memory = std::make_unique<recognition::Memory>();
+  const auto outcome =
+      recognition::Task(model, *memory).name_all(views.data(), [](const char*, const auto& call) { call(); });
+  HostFacts facts("host", name);
+  facts.add_hash(name, outcome.hypotheses.value());
+  facts.add("objects", recognizer.instance_count());
+  facts.add("codewords", recognizer.codeword_count());
+  facts.add("model_bytes", bytes.size());
+  facts.add("views", outcome.views);
+  facts.add("right", outcome.right);
+  facts.write_to(directory + "/host.txt");
+
+  HostFacts floats("host_cshot1344_floats", name);
+  floats.add("objects", recognizer.instance_count());
+  floats.add("codewords", recognizer.codeword_count());
+  floats.add("views", task.test.size());
+  floats.add("right", right_with_cshot(task));
+  floats.write_to(directory + "/host_floats.txt");
+}
+
+void write_left_out(const std::string& path, const std::string& target, std::size_t views, const LeftOut& result,
+                    std::size_t right_with_floats) {
+  HostFacts facts(target, "SegmentsLeftOut");
+  facts.add("views", views);
+  facts.add("codewords", result.codewords);
+  facts.add("model_bytes", result.model_bytes);
+  facts.add("right", result.instances_right);
+  facts.add("right_classes", result.classes_right);
+  facts.add("views_behind_floats", right_with_floats - std::min(right_with_floats, result.instances_right));
+  facts.write_to(path);
+}
+
+/// Accuracy against bytes. The recognizer of floats learns as many key points as the largest model.
+void leave_out(const Options& options, const std::vector<Segment>& segments) {
+  std::vector<LeftOut> results;
+  std::size_t keypoints = 0;
+  for (const std::size_t kilobytes : options.kilobytes) {
+    results.push_back(leave_scenes_out(segments, 1024 * kilobytes));
+    keypoints = std::max(keypoints, results.back().keypoints);
+  }
+  const LeftOut floats = leave_scenes_out_with_cshot(segments, keypoints);
+  const auto write_one = [&](const std::string& name, const LeftOut& result) {
+    write_left_out(options.directory + "/left_out_" + name + ".txt", "host_" + name, segments.size(), result,
+                   floats.instances_right);
   };
-  fact("objects", task.instances.size());
-  fact("codewords", recognizer.codeword_count());
-  fact("views", task.test.size());
-  fact("right", right_with_cshot(task));
-  write(directory + "/host.txt", facts);
+  write_one("cshot1344_floats", floats);
+  for (std::size_t i = 0; i < results.size(); ++i) write_one(std::to_string(options.kilobytes[i]) + "KB", results[i]);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("A model and views for microcontrollers, of generated objects: model.bin, views.bin, and host.txt.");
+  CLI::App app("A model and views for microcontrollers, of generated objects: model.bin, views.bin, and facts.");
   app.name("firmware_recognition");
-  std::string directory;
-  app.add_option("directory", directory, "where the files go")->required()->check(CLI::ExistingDirectory);
+  Options options;
+  app.add_option("directory", options.directory, "where the files go")->required()->check(CLI::ExistingDirectory);
+  auto* const segments =
+      app.add_option("--segments", options.segments, "a folder of labeled segments, instead of generated objects");
+  app.add_option("--kilobytes", options.kilobytes, "also how well models of these sizes do, each scene left out")
+      ->needs(segments)
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   try {
-    make(directory);
+    if (options.segments.empty()) {
+      make(options.directory, "Recognition", generated_task());
+    } else {
+      const std::vector<Segment> all = read_segments(options.segments);
+      make(options.directory, "Segments", segments_task(all));
+      if (!options.kilobytes.empty()) leave_out(options, all);
+    }
     return 0;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());

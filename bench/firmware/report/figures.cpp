@@ -15,9 +15,9 @@ bool starts_with(const std::string& text, const std::string& start) {
 }
 
 /// Bytes of all sections whose names start in one of these ways.
-double bytes_of(const Facts& image, std::initializer_list<const char*> starts) {
+double bytes_of(const Facts& image, std::initializer_list<const char*> starts, const char* key = "bytes") {
   double sum = 0.0;
-  for (const std::string& line : image.all("bytes")) {
+  for (const std::string& line : image.all(key)) {
     const std::size_t end = line.find(' ');
     const bool counts = std::any_of(starts.begin(), starts.end(),
                                     [&](const char* start) { return starts_with(line.substr(0, end), start); });
@@ -26,8 +26,9 @@ double bytes_of(const Facts& image, std::initializer_list<const char*> starts) {
   return sum;
 }
 
-double flash_of(const Facts& image) {
-  return bytes_of(image, {".vectors", ".text", ".rodata", ".srodata", ".ARM.ex", ".init_array", ".data", ".sdata"});
+double flash_of(const Facts& image, const char* key = "bytes") {
+  return bytes_of(image, {".vectors", ".text", ".rodata", ".srodata", ".ARM.ex", ".init_array", ".data", ".sdata"},
+                  key);
 }
 
 double ram_of(const Facts& image) { return bytes_of(image, {".data", ".sdata", ".bss", ".sbss"}); }
@@ -42,9 +43,13 @@ class Builder {
       const std::string program = image.text("program");
       if (program == "size" && !image.text("configuration").empty()) add_size(image);
       if (program == "work") add_work(image);
-      if (program == "bits" || program == "recognition") add_bits(image);
+      if (program == "bits" || program == "recognition" || program == "recognition_on_host") add_bits(image);
       if (program == "recognition") add_work(image);
       if (program == "recognition_on_host") add_facts(image);
+      if (program == "recognizer_code") {
+        figures(image, image.text("configuration"))["recognizer_code"] = flash_of(image) - flash_of(image, "alone");
+      }
+      if (program == "skipped") measured_.skipped.push_back(image.text("configuration"));
     }
     for (Row& row : measured_.rows) derive(row.figures);
     derive_further();

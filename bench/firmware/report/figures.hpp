@@ -30,6 +30,7 @@ struct Measured {
   std::vector<Row> rows;
   std::vector<Hash> hashes;
   std::map<std::string, std::string> compilers;  // by target
+  std::vector<std::string> skipped;              // configurations whose data are not there
 };
 
 /// What one run of the program of hashes printed.

@@ -32,13 +32,16 @@ constexpr Column columns[] = {{"brute", "flash_brute", "object_brute"},
                               {"build", "work_build_grid", nullptr},
                               {"gather", "work_gather_grid", nullptr}};
 
-/// Of recognition: one program that stands in the place of a configuration.
-constexpr const char* recognition = "Recognition";
+/// Tasks of recognition stand in the place of a configuration.
+bool is_recognition(const std::string& configuration) {
+  return configuration == "Recognition" || configuration == "Segments" || configuration == "SegmentsLeftOut";
+}
 constexpr Column recognition_columns[] = {
-    {"objects", "objects", nullptr},        {"codewords", "codewords", nullptr}, {"model", "model_bytes", nullptr},
-    {"RAM", "recognizer_bytes", nullptr},   {"open", "work_open", nullptr},      {"index", "work_index", nullptr},
-    {"describe", "work_describe", nullptr}, {"match", "work_match", nullptr},    {"find", "work_find", nullptr},
-    {"view", "work_view", nullptr},         {"views", "views", nullptr},         {"right", "right", nullptr}};
+    {"objects", "objects", nullptr},      {"codewords", "codewords", nullptr},  {"model", "model_bytes", nullptr},
+    {"RAM", "recognizer_bytes", nullptr}, {"code", "recognizer_code", nullptr}, {"stack", "stack_painted", nullptr},
+    {"open", "work_open", nullptr},       {"index", "work_index", nullptr},     {"describe", "work_describe", nullptr},
+    {"match", "work_match", nullptr},     {"find", "work_find", nullptr},       {"view", "work_view", nullptr},
+    {"views", "views", nullptr},          {"right", "right", nullptr},          {"classes", "right_classes", nullptr}};
 
 using Lines = std::vector<std::vector<std::string>>;
 
@@ -91,7 +94,8 @@ const char* const legend =
     "instructions: 250, 500: of a descriptor with so many gathered neighbors; each: per neighbor, and with a Lab "
     "color\n"
     "per point; fixed: besides; build, gather: grid over 2000 points, 500 found.\n"
-    "Recognition of generated objects: model: bytes of flash; RAM: bytes of the recognizer, workspace included; "
+    "Recognition of generated objects, Segments of real frames: model: bytes of flash; RAM: bytes of the recognizer, "
+    "workspace included; "
     "instructions\n"
     "of open() and, for a view of 100 key points, of the index, descriptions, comparisons with all codewords, and the "
     "densest places.\n";
@@ -111,7 +115,7 @@ std::string tables(const Measured& measured) {
         lines.back().push_back(hash_of(measured, row));
       }
     };
-    configuration == recognition ? add(recognition_columns) : add(columns);
+    is_recognition(configuration) ? add(recognition_columns) : add(columns);
     lines[0].push_back("hash");
     text += configuration + "\n" + aligned(lines) + "\n";
   }

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "paper/datasets/dataset_files.hpp"
+#include "tools/labels/dataset_files.hpp"
 
 #define STB_IMAGE_IMPLEMENTATION  // here and nowhere else
 #include <stb/stb_image.h>

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <string_view>
 
-#include "paper/datasets/dataset_files.hpp"
 #include "tools/io/scalar_type.hpp"
 #include "tools/io/text_rows.hpp"
+#include "tools/labels/dataset_files.hpp"
 
 namespace shortshot_bench::datasets {
 

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <filesystem>
 
-#include "paper/datasets/dataset_files.hpp"
+#include "tools/labels/dataset_files.hpp"
 
 namespace shortshot_bench::datasets {
 namespace {

@@ -6,10 +6,10 @@
 #include <numeric>
 #include <utility>
 
-#include "paper/datasets/csv_table.hpp"
-#include "paper/datasets/dataset_files.hpp"
 #include "paper/datasets/rgbd_frame.hpp"
 #include "tools/io/read_cloud.hpp"
+#include "tools/labels/csv_table.hpp"
+#include "tools/labels/dataset_files.hpp"
 
 namespace shortshot_bench::datasets {
 namespace {

@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include "paper/datasets/dataset_files.hpp"
 #include "paper/datasets/image.hpp"
 #include "paper/datasets/matrix_file.hpp"
 #include "tools/io/input_error.hpp"
+#include "tools/labels/dataset_files.hpp"
 
 namespace shortshot_bench::datasets {
 namespace {

@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "paper/datasets/csv_table.hpp"
-#include "paper/datasets/dataset_files.hpp"
 #include "paper/datasets/mesh.hpp"
 #include "paper/datasets/mesh_ray_caster.hpp"
 #include "paper/datasets/virtual_view_renderer.hpp"
 #include "tools/io/input_error.hpp"
+#include "tools/labels/csv_table.hpp"
+#include "tools/labels/dataset_files.hpp"
 
 namespace shortshot_bench::datasets {
 namespace {

@@ -97,7 +97,8 @@ template <class Stored>
   constexpr auto row_bytes = static_cast<std::uint32_t>(sizeof(Stored));
   const auto codewords = static_cast<std::uint32_t>(codebook.codewords.size());
   const auto instances = static_cast<std::uint32_t>(codebook.instances.size());
-  const detail::FlashLayout layout(row_bytes, bits, codewords, instances, static_cast<std::uint32_t>(text.size()));
+  const detail::FlashLayout layout(row_bytes, 8 * row_bytes / bits, codewords, instances,
+                                   static_cast<std::uint32_t>(text.size()));
   const std::uint64_t size_bytes = layout.checksum + detail::checksum_bytes;
   if (size_bytes > most) return Status::bad_rows;
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "../config.hpp"
 
@@ -36,13 +37,14 @@ class MersenneTwister {
   std::size_t at_ = 0;
 };
 
-/// The first numbers of mt19937 with seed 1, modulo `Size`.
+/// The first numbers of mt19937 with seed 1, modulo `Size`; in bytes, if they fit.
 template <int Size, std::size_t Count>
 struct Draws {
-  std::uint16_t of[Count];
+  using Draw = std::conditional_t<(Size <= 256), std::uint8_t, std::uint16_t>;
+  Draw of[Count];
   constexpr Draws() noexcept : of{} {
     MersenneTwister next(1);
-    for (std::uint16_t& draw : of) draw = static_cast<std::uint16_t>(next() % static_cast<std::uint32_t>(Size));
+    for (Draw& draw : of) draw = static_cast<Draw>(next() % static_cast<std::uint32_t>(Size));
   }
 };
 template <int Size, std::size_t Count>

@@ -35,7 +35,7 @@ inline namespace SHORTSHOT_CODE {
 template <class D, int Scale, int Bits, int Draws>
 void binarize(const NibbleDescriptor<D, Scale>& nibbles, SumBits<D, Bits, Draws>& out) noexcept {
   constexpr auto& draws = detail::draws<D::size, static_cast<std::size_t>(Bits) * Draws>;
-  const std::uint16_t* draw = draws.of;
+  const auto* draw = draws.of;
   for (std::uint8_t& byte : out.bytes) {
     unsigned bits = 0;
     for (int bit = 0; bit < 8; ++bit) {

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "paper/datasets/pair_sets.hpp"
-#include "paper/datasets/view_sets.hpp"
 #include "real_data.hpp"
+#include "tools/labels/view_sets.hpp"
 
 namespace test_datasets {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "dataset_samples.hpp"
-#include "paper/datasets/dataset_files.hpp"
 #include "paper/datasets/pair_sets.hpp"
+#include "tools/labels/dataset_files.hpp"
 
 namespace test_datasets_pairs {
 namespace {

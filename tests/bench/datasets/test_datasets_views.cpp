@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "dataset_samples.hpp"
-#include "paper/datasets/view_sets.hpp"
+#include "tools/labels/view_sets.hpp"
 
 namespace test_datasets_views {
 namespace {

@@ -90,6 +90,38 @@ TEST_CASE("recognition: a view is its index, descriptions, comparisons and place
   CHECK(broken_images(images, {}).empty());
 }
 
+TEST_CASE("recognition of recordings: boards agree with the host; nothing is committed; what is not there is skipped") {
+  auto images = measured_images();
+  const std::string host =
+      "level O2\nconfiguration Segments\nworkspace full\nhash Segments 0a\nfact views 9\nfact right 8\n";
+  images.push_back(facts("host", "target host\nprogram recognition_on_host\n" + host + "exit 0\n"));
+  images.push_back(facts("skipped", "program skipped\nconfiguration Elsewhere\nexit 0\n"));
+  const Measured measured = measure(images);
+  CHECK(measured.skipped == std::vector<std::string>{"Elsewhere"});
+  const Hashes committed{{"Ssh32", "0badcafe"}};
+  std::vector<Hash> hashes = measured.hashes;
+  CHECK(broken_hashes(committed, hashes).empty());
+  hashes.push_back({"m7", "O2", "Segments", "0b"});
+  CHECK(names(broken_hashes(committed, hashes), "Segments on m7 -O2 has the hash 0b, the host: 0a"));
+  CHECK(broken_images(images, committed).empty());
+
+  const auto about = [](const std::vector<std::string>& configurations) {
+    return Budget{"the promise", "right", 9.0, 9.0, {}, {}, configurations, {}};
+  };
+  const std::vector<Budget> budgets{about({"Elsewhere"}), about({"Segments"}), about({"Elsewhere", "Ssh32"}),
+                                    about({})};
+  CHECK(without(budgets, measured.skipped).size() == 3);
+  CHECK(without(budgets, {}).size() == 4);
+}
+
+TEST_CASE("the recognizer's code is what its program weighs more than one that describes") {
+  auto images = measured_images();
+  images.push_back(facts("code",
+                         "target m7\nlevel Os\nprogram recognizer_code\nconfiguration Recognition\nworkspace full\n"
+                         "exit 0\nbytes .text 900\nbytes .rodata 50\nalone .text 600\nalone .rodata 20\n"));
+  CHECK(measure(images).rows.back().figures.at("recognizer_code") == 330.0);
+}
+
 TEST_CASE("sections without counts are refused") {
   auto images = measured_images();
   images[2] = facts("work", "target m7\nlevel O2\nprogram work\nsection given_250\nexit 0\n");

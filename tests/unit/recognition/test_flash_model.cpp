@@ -195,7 +195,8 @@ TEST_CASE("flash model: rows begin with what tells codewords apart; an order tha
     if (i > 0) CHECK(differences(i) <= differences(i - 1));
   }
 
-  const ss::detail::FlashLayout layout(sizeof(Stored), 4, model.codeword_count(), model.instance_count(), 0);
+  const ss::detail::FlashLayout layout(sizeof(Stored), model.number_count(), model.codeword_count(),
+                                       model.instance_count(), 0);
   bytes[layout.order] = bytes[layout.order + 2];
   bytes[layout.order + 1] = bytes[layout.order + 3];
   bytes = with_checksum(bytes);

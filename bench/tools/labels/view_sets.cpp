@@ -1,4 +1,4 @@
-#include "paper/datasets/view_sets.hpp"
+#include "tools/labels/view_sets.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -8,9 +8,9 @@
 #include <tuple>
 #include <utility>
 
-#include "paper/datasets/csv_table.hpp"
-#include "paper/datasets/dataset_files.hpp"
 #include "tools/io/text_rows.hpp"
+#include "tools/labels/csv_table.hpp"
+#include "tools/labels/dataset_files.hpp"
 
 namespace shortshot_bench::datasets {
 namespace {

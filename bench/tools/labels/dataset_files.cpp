@@ -1,4 +1,4 @@
-#include "paper/datasets/dataset_files.hpp"
+#include "tools/labels/dataset_files.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,4 @@
-#include "paper/datasets/csv_table.hpp"
+#include "tools/labels/csv_table.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,0 +1,164 @@
+#include "firmware/recognition/segments.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "tools/io/input_error.hpp"
+#include "tools/io/require_ok.hpp"
+#include "tools/io/view_of_cloud.hpp"
+#include "tools/labels/dataset_files.hpp"
+#include "tools/labels/view_sets.hpp"
+
+namespace shortshot_bench::firmware {
+namespace {
+
+namespace ss = shortshot;
+
+constexpr float voxel = 0.004f;
+
+RecognitionTask empty_task() { return {{}, {}, 0.04f, 0.015f, 33}; }
+
+/// One point in each voxel, and their center.
+LabeledView averaged(const RgbdCloud& cloud) {
+  std::vector<ss::KeyPoint> means;
+  require(ss::sample_centroids(view_of_cloud(cloud), voxel, means));
+  LabeledView view;
+  double sum[3] = {};
+  for (const ss::KeyPoint& mean : means) {
+    const ss::Point& p = mean.position;
+    view.cloud.xyz.insert(view.cloud.xyz.end(), {p.x, p.y, p.z});
+    view.cloud.rgb.insert(view.cloud.rgb.end(), {mean.color.r, mean.color.g, mean.color.b});
+    sum[0] += static_cast<double>(p.x);
+    sum[1] += static_cast<double>(p.y);
+    sum[2] += static_cast<double>(p.z);
+  }
+  view.cloud.width = means.size();
+  view.cloud.height = 1;
+  const auto mean = [&](int axis) { return static_cast<float>(sum[axis] / static_cast<double>(means.size())); };
+  view.center = {mean(0), mean(1), mean(2)};
+  return view;
+}
+
+std::set<std::string> scenes_of(const std::vector<Segment>& segments) {
+  std::set<std::string> scenes;
+  for (const Segment& segment : segments) scenes.insert(segment.scene);
+  return scenes;
+}
+
+/// The recognizer that a board has of it.
+ss::Recognizer as_on_board(const ss::Recognizer& recognizer) {
+  std::vector<std::uint8_t> model;
+  require(ss::save_for_flash<recognition::Stored>(recognizer, model));
+  ss::Recognizer loaded;
+  require(ss::load_from_flash<recognition::Stored>(model.data(), model.size(), loaded));
+  return loaded;
+}
+
+/// Trains with all but one scene, and asks finished(recognizer) for that, scene by scene.
+template <class Features, class Finished>
+LeftOut leave_out(const std::vector<Segment>& segments, const std::vector<Features>& learned,
+                  const std::vector<Features>& asked, const Finished& finished) {
+  LeftOut out;
+  for (const std::string& scene : scenes_of(segments)) {
+    ss::Recognizer recognizer(recognizer_options());
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const LabeledView& view = segments[i].view;
+      if (segments[i].scene == scene) continue;
+      require(ss::train(recognizer, learned[i], view.center, view.object_class, view.instance));
+    }
+    recognizer = finished(recognizer);
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      const LabeledView& view = segments[i].view;
+      if (segments[i].scene != scene) continue;
+      std::vector<ss::Hypothesis> found;
+      require(ss::recognize(recognizer, asked[i], found));
+      out.instances_right += is_right(recognizer, view, found) ? 1 : 0;
+      const bool is_class = !found.empty() && recognizer.class_name(found[0].object_class) == view.object_class;
+      out.classes_right += is_class ? 1 : 0;
+    }
+  }
+  return out;
+}
+
+/// Of all segments, with so many key points each.
+std::vector<std::uint8_t> model_of(const std::vector<Segment>& segments, std::size_t keypoints) {
+  RecognitionTask task = empty_task();
+  task.training_keypoints = keypoints;
+  for (const Segment& segment : segments) task.training.push_back(segment.view);
+  std::vector<std::uint8_t> model;
+  require(ss::save_for_flash<recognition::Stored>(train_stored(task), model));
+  return model;
+}
+
+/// The most key points a view of which a model of all segments is not larger; at least 1.
+std::size_t keypoints_in(const std::vector<Segment>& segments, std::size_t most_bytes) {
+  std::size_t fit = 1, do_not = 1024;
+  while (do_not - fit > 1) {
+    const std::size_t middle = (fit + do_not) / 2;
+    (model_of(segments, middle).size() <= most_bytes ? fit : do_not) = middle;
+  }
+  return fit;
+}
+
+}  // namespace
+
+std::vector<Segment> read_segments(const std::string& folder) {
+  for (const datasets::ViewSet& set : datasets::open_view_sets(folder)) {
+    if (set.split != datasets::Split::leave_one_sequence_out) continue;
+    std::vector<Segment> segments;
+    for (std::size_t i = 0; i < set.views.size(); ++i) {
+      Segment segment{averaged(set.load(i)), set.views[i].sequence};
+      segment.view.object_class = set.views[i].object_class;
+      segment.view.instance = set.views[i].instance;
+      segments.push_back(std::move(segment));
+    }
+    return segments;
+  }
+  throw datasets::not_recognized(folder, "labels.csv");
+}
+
+RecognitionTask segments_task(const std::vector<Segment>& segments) {
+  RecognitionTask task = empty_task();
+  const std::set<std::string> scenes = scenes_of(segments);
+  for (const Segment& segment : segments) {
+    const auto number = std::distance(scenes.begin(), scenes.find(segment.scene));
+    (number % 4 == 3 ? task.test : task.training).push_back(segment.view);
+  }
+  return task;
+}
+
+LeftOut leave_scenes_out(const std::vector<Segment>& segments, std::size_t most_bytes) {
+  const std::size_t keypoints = keypoints_in(segments, most_bytes);
+  const RecognitionTask task = empty_task();
+  std::vector<ss::StoredFeatures<recognition::Stored>> learned, asked;
+  for (const Segment& segment : segments) {
+    learned.push_back(stored(task, segment.view, keypoints));
+    asked.push_back(stored(task, segment.view, recognition::keypoints));
+  }
+  LeftOut out = leave_out(segments, learned, asked, as_on_board);
+  const std::vector<std::uint8_t> model = model_of(segments, keypoints);
+  ss::ModelView<recognition::Stored> view;
+  require(view.open(model.data(), model.size()));
+  out.keypoints = keypoints;
+  out.codewords = view.codeword_count();
+  out.model_bytes = model.size();
+  return out;
+}
+
+LeftOut leave_scenes_out_with_cshot(const std::vector<Segment>& segments, std::size_t keypoints) {
+  const RecognitionTask task = empty_task();
+  std::vector<ss::Features<ss::Cshot1344>> learned, asked;
+  std::size_t codewords = 0;
+  for (const Segment& segment : segments) {
+    learned.push_back(described<ss::Cshot1344>(task, segment.view, keypoints));
+    asked.push_back(described<ss::Cshot1344>(task, segment.view, recognition::keypoints));
+    for (const ss::Status status : learned.back().status) codewords += status == ss::Status::ok ? 1 : 0;
+  }
+  LeftOut out = leave_out(segments, learned, asked, [](const ss::Recognizer& recognizer) { return recognizer; });
+  out.keypoints = keypoints;
+  out.codewords = codewords;
+  out.model_bytes = codewords * (ss::Cshot1344::size * sizeof(float) + 16);
+  return out;
+}
+
+}  // namespace shortshot_bench::firmware
