@@ -1,7 +1,7 @@
 #!/bin/sh
 # check_deb.sh DIRECTORY ROOT VERSION HEADERS: is the one package in DIRECTORY what Debian expects, with all of HEADERS?
-# Real dpkg installs it below ROOT, removes it without a trace, and installs it again: the machine's own packages are not
-# touched.
+# Real dpkg installs it below ROOT, removes it without a trace, and installs it again: the machine's own packages are
+# not touched.
 set -eu
 directory=$1
 dpkg_root=$2

@@ -1,5 +1,6 @@
 # Included by CMakeLists.txt, after projects.cmake. The routes on which the library comes to a user
-# (packaging/README.md), each to its end: a program that is compiled and runs. Tools that are not there are left out, with a line that says so.
+# (packaging/README.md), each to its end: a program that is compiled and runs. Tools that are not there are left out, with
+# a line that says so.
 
 set(packaging "${PROJECT_SOURCE_DIR}/packaging")
 set(packages "${here}/packages")

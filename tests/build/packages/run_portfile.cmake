@@ -12,7 +12,7 @@ file(REMOVE_RECURSE "${DIRECTORY}")
 function(vcpkg_cmake_configure)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "SOURCE_PATH" "OPTIONS")
   if(NOT VCPKG_BUILD_TYPE STREQUAL "release" OR arg_UNPARSED_ARGUMENTS)
-    message(FATAL_ERROR "only builds for release have a stand-in, with SOURCE_PATH and OPTIONS: ${arg_UNPARSED_ARGUMENTS}")
+    message(FATAL_ERROR "only builds for release have a stand-in, with SOURCE_PATH and OPTIONS ${arg_UNPARSED_ARGUMENTS}")
   endif()
   execute_process(COMMAND "${CMAKE_COMMAND}" -S "${arg_SOURCE_PATH}" -B "${CURRENT_BUILDTREES_DIR}" ${arg_OPTIONS}
     ${OPTIONS} -DCMAKE_BUILD_TYPE=Release "-DCMAKE_INSTALL_PREFIX=${CURRENT_PACKAGES_DIR}" -DBUILD_SHARED_LIBS=OFF
