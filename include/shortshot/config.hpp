@@ -25,7 +25,9 @@
 // SHORTSHOT_IS_SET(M) is 1 where M is a macro with the value 1, else 0. (The second of (0, 1, ...) or of (x 1, 0).)
 #define SHORTSHOT_BEFORE_ONE_1 0,
 #define SHORTSHOT_SECOND(first, second, ...) second
-#define SHORTSHOT_CHOOSE(before_one) SHORTSHOT_SECOND(before_one 1, 0, )  // NOLINT: parentheses would hide the comma
+// A comment in the line itself would be pasted, too, with GCC's -CC (Arduino).
+// NOLINTNEXTLINE: parentheses would hide the comma
+#define SHORTSHOT_CHOOSE(before_one) SHORTSHOT_SECOND(before_one 1, 0, )
 #define SHORTSHOT_PASTE_VALUE(value) SHORTSHOT_CHOOSE(SHORTSHOT_BEFORE_ONE_##value)
 #define SHORTSHOT_IS_SET(macro) SHORTSHOT_PASTE_VALUE(macro)
 

@@ -55,11 +55,11 @@ foreach(addition IN LISTS additions)
   depends(map.${addition}.runs map.${addition})
 endforeach()
 
-# ---- The page for firmware engineers, and manifests ------------------------------------------------------------------
+# ---- The page for firmware engineers ---------------------------------------------------------------------------------
 
 set(page "${there}/firmware_page")
 build_test(firmware_page "${CMAKE_COMMAND}" "-DDOCUMENT=${PROJECT_SOURCE_DIR}/bench/firmware/README.md"
-  -DEXAMPLES=firmware,cycles,train_for_flash,recognize,esp_idf,zephyr "-DOUTPUT_DIR=${page}" -P "${here}/extract_examples.cmake")
+  -DEXAMPLES=firmware,cycles,train_for_flash,recognize,zephyr "-DOUTPUT_DIR=${page}" -P "${here}/extract_examples.cmake")
 build_test(firmware_page.host "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" -O2
   "${page}/firmware.cpp" "${here}/firmware_page_main.cpp" -o "${page}/firmware")
 build_test(firmware_page.host.runs "${page}/firmware")
@@ -81,23 +81,3 @@ if(arm-none-eabi_compiler)
     depends(firmware_page.${example}.symbols firmware_page.${example})
   endforeach()
 endif()
-
-# build_system(NAME EXAMPLE LIBRARY): the page's lines for a build system, with the library's clone at LIBRARY.
-function(build_system name example library)
-  build_test(build_systems.${name} "${CMAKE_CTEST_COMMAND}" --build-and-test "${here}/build_systems"
-    "${there}/build_systems/${name}" --build-generator "${CMAKE_GENERATOR}" --build-options
-    "-DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}" -DCMAKE_CXX_STANDARD=17 "-DEXAMPLE=${page}/${example}.cmake"
-    "-DMAIN=${page}/firmware.cpp" "-DSHORTSHOT_SOURCE_DIR=${library}")
-  depends(build_systems.${name} firmware_page)
-endfunction()
-foreach(system IN ITEMS esp_idf zephyr)
-  build_system(${system} ${system} "${PROJECT_SOURCE_DIR}")
-  build_system(${system}_no_clone ${system} "${PROJECT_SOURCE_DIR}/include")
-  set_tests_properties(build.build_systems.${system}_no_clone PROPERTIES
-    PASS_REGULAR_EXPRESSION "single_include' is not a directory|error: [^\n]*shortshot.hpp")
-endforeach()
-
-add_executable(library_json library_json.cpp)
-target_link_libraries(library_json PRIVATE test_main shortshot_own nlohmann_json::nlohmann_json)
-target_compile_definitions(library_json PRIVATE SHORTSHOT_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-build_test(library_json library_json)

@@ -1,0 +1,2 @@
+// Arduino's IDE looks for names that end in .h.
+#include "shortshot.hpp"

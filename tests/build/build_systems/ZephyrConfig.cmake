@@ -1,0 +1,20 @@
+# As Zephyr's: a module is a folder with zephyr/module.yml, which says where its CMakeLists.txt and its Kconfig are.
+
+function(zephyr_include_directories)
+  target_include_directories(app PRIVATE ${ARGN})
+endfunction()
+
+foreach(module IN LISTS ZEPHYR_EXTRA_MODULES)
+  file(READ "${module}/zephyr/module.yml" yml)
+  foreach(key IN ITEMS cmake kconfig)
+    if(NOT yml MATCHES "\n  ${key}: ([^\n]+)")
+      message(FATAL_ERROR "${module}/zephyr/module.yml has no ${key}")
+    endif()
+    set(module_${key} "${module}/${CMAKE_MATCH_1}")
+  endforeach()
+  file(READ "${module_kconfig}" kconfig)
+  if(NOT kconfig MATCHES "(^|\n)config SHORTSHOT\n")
+    message(FATAL_ERROR "CONFIG_SHORTSHOT is nothing that can be set")
+  endif()
+  add_subdirectory("${module_cmake}" "${CMAKE_CURRENT_BINARY_DIR}/module")
+endforeach()

@@ -1,0 +1,16 @@
+# For CMAKE_PROJECT_INCLUDE: a machine that has a compiler, and no package or program beside it. What asks for one that
+# it cannot do without ends the configuration.
+function(find_package name)
+  if("REQUIRED" IN_LIST ARGN)
+    message(FATAL_ERROR "needs the package ${name}")
+  endif()
+  set(${name}_FOUND FALSE PARENT_SCOPE)
+endfunction()
+foreach(kind IN ITEMS program library path file)
+  function(find_${kind} variable)
+    if("REQUIRED" IN_LIST ARGN)
+      message(FATAL_ERROR "needs ${variable}")
+    endif()
+    set(${variable} ${variable}-NOTFOUND PARENT_SCOPE)
+  endfunction()
+endforeach()
