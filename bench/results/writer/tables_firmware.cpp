@@ -1,4 +1,5 @@
 // Figures of the firmware targets.
+#include <algorithm>
 #include <stdexcept>
 
 #include "results/writer/markdown.hpp"
@@ -71,6 +72,34 @@ std::string recognition_table(const Json& json) {
   return table.markdown();
 }
 
+/// Small depth sensors: a program for each stands in the place of a configuration. All in one table, with what the
+/// hosted recognizer (in the row of its own) names of the same views.
+constexpr const char* small_sensor = "SmallSensor";
+
+bool is_small_sensor(const std::string& configuration) { return configuration.rfind(small_sensor, 0) == 0; }
+
+std::string figure_of(const Json& row, const char* part, const char* whole_of) {
+  return row.count(part) == 0 ? "" : figure(row, part) + " of " + figure(row, whole_of);
+}
+
+std::string small_sensor_table(const Json& json) {
+  Table table({"Small sensors", "points", "RAM in all", "of it stack", "code", "model", "to points", "describe",
+               "match", "a view", "named rightly", "their kind", "up to 25 cm", "sure and right", "hash"});
+  for (const Json& row : json.at("figures")) {
+    const std::string configuration = row.at("configuration");
+    if (!is_small_sensor(configuration)) continue;
+    const std::string target = row.at("target").get<std::string>() + " -" + row.at("level").get<std::string>();
+    const bool is_hosted = row.count("work_view") == 0;
+    table.add({configuration.substr(std::string(small_sensor).size()) + " " + target, figure(row, "points"),
+               figure(row, "ram_bytes"), figure(row, "stack_painted"), figure(row, "code_bytes"),
+               figure(row, "model_bytes"), figure(row, "work_points"), figure(row, "work_describe"),
+               figure(row, "work_match"), figure(row, "work_view"), figure_of(row, "right", "views"),
+               figure_of(row, "right_kind", "views"), figure_of(row, "right_near", "near"),
+               figure_of(row, "right_sure", "sure"), is_hosted ? "" : hash_of(json, configuration)});
+  }
+  return table.markdown();
+}
+
 /// What a firmware engineer may quote; nothing where it was not measured.
 std::string recognition_headline(const Json& json) {
   for (const Json& row : json.at("figures")) {
@@ -117,9 +146,13 @@ std::string firmware_tables(const Json& json) {
     if (configuration == last) continue;
     last = configuration;
     if (text.find("| " + configuration + " |") != std::string::npos) continue;
+    if (is_small_sensor(configuration)) continue;
     text += "\n" + (configuration == recognition ? recognition_table(json) : table_of(json, configuration)) +
             "\nHash of the bits: " + hash_of(json, configuration) + ", the same in every build.\n";
   }
+  const bool has_sensors = std::any_of(json.at("figures").begin(), json.at("figures").end(),
+                                       [](const Json& row) { return is_small_sensor(row.at("configuration")); });
+  if (has_sensors) text += "\n" + small_sensor_table(json);
   return text;
 }
 
