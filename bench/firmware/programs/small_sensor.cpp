@@ -67,7 +67,7 @@ struct Answers {
   std::uint32_t right;
   std::uint32_t right_kind;
 };
-Answers all, near, sure;
+Answers all, best, sure;
 
 void add_answer(Answers& to, std::uint32_t wanted, bool is_there) {
   ++to.views;
@@ -80,13 +80,13 @@ void recognize_all(Hash& hash) {
   const std::uint32_t* next = views_begin + 1;
   for (std::uint32_t view = 0; view < *views_begin; ++view) {
     const std::uint32_t wanted = next[0];
-    const bool is_near = next[1] <= small_sensor::near_millimeters;
+    const bool is_best = next[1] >= small_sensor::best_distances[0] && next[1] <= small_sensor::best_distances[1];
     const auto* const frame = reinterpret_cast<const std::uint16_t*>(next + 2);
     for (std::size_t i = 0; i < zones; ++i) depths[i] = frame[i];
     const bool is_there = recognize();
     if (is_there) hash.add(found, sizeof found);
     add_answer(all, wanted, is_there);
-    if (is_near) add_answer(near, wanted, is_there);
+    if (is_best) add_answer(best, wanted, is_there);
     if (is_there && found[0].score > 0.5f + small_sensor::activated - 1) add_answer(sure, wanted, true);
     if (view == 0) board::print_fact("fact", "points", points.size);
     next += 2 + zones / 2;
@@ -116,8 +116,8 @@ int main() {
   board::print_fact("fact", "views", all.views);
   board::print_fact("fact", "right", all.right);
   board::print_fact("fact", "right_kind", all.right_kind);
-  board::print_fact("fact", "near", near.views);
-  board::print_fact("fact", "right_near", near.right);
+  board::print_fact("fact", "best", best.views);
+  board::print_fact("fact", "right_best", best.right);
   board::print_fact("fact", "sure", sure.views);
   board::print_fact("fact", "right_sure", sure.right);
   if (failures > 0) board::print("the memory is too small for a frame\n");

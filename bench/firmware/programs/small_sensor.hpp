@@ -36,7 +36,8 @@ inline constexpr Sensor sensors[] = {{"SmallSensor8x8", 8, 8, 0.414f, true},
 
 /// Of flat hand, fist, pointing, two fingers, ball, box, can and bowl: what a few points can tell at all.
 inline constexpr std::uint32_t kinds[] = {0, 1, 1, 1, 2, 3, 3, 4};
-inline constexpr std::uint32_t near_millimeters = 250;
+/// Where hands fit into the view, and fill enough zones of the smallest sensor: millimeters, from and to.
+inline constexpr std::uint32_t best_distances[] = {170, 350};
 
 inline constexpr shortshot::Frame own_axes{{1.0f, 0.0f, 0.0f}, {0.0f, -1.0f, 0.0f}, {0.0f, 0.0f, -1.0f}};
 

@@ -54,8 +54,8 @@ constexpr Column sensor_columns[] = {{"points", "points", nullptr},
                                      {"views", "views", nullptr},
                                      {"right", "right", nullptr},
                                      {"kind", "right_kind", nullptr},
-                                     {"near", "near", nullptr},
-                                     {"right", "right_near", nullptr},
+                                     {"best", "best", nullptr},
+                                     {"right", "right_best", nullptr},
                                      {"sure", "sure", nullptr},
                                      {"right", "right_sure", nullptr}};
 
@@ -116,7 +116,7 @@ const char* const legend =
     "densest places.\n"
     "Small sensors: RAM: all of it, stack included; code: flash without the model; of the views how many are named "
     "rightly, or\n"
-    "at least their kind; of those that are near; of those where all codewords agree.\n";
+    "at least their kind; of those at the best distances; of those where all codewords agree.\n";
 
 }  // namespace
 

@@ -84,7 +84,7 @@ std::string figure_of(const Json& row, const char* part, const char* whole_of) {
 
 std::string small_sensor_table(const Json& json) {
   Table table({"Small sensors", "points", "RAM in all", "of it stack", "code", "model", "to points", "describe",
-               "match", "a view", "named rightly", "their kind", "up to 25 cm", "sure and right", "hash"});
+               "match", "a view", "named rightly", "their kind", "at 17 to 35 cm", "sure and right", "hash"});
   for (const Json& row : json.at("figures")) {
     const std::string configuration = row.at("configuration");
     if (!is_small_sensor(configuration)) continue;
@@ -94,7 +94,7 @@ std::string small_sensor_table(const Json& json) {
                figure(row, "ram_bytes"), figure(row, "stack_painted"), figure(row, "code_bytes"),
                figure(row, "model_bytes"), figure(row, "work_points"), figure(row, "work_describe"),
                figure(row, "work_match"), figure(row, "work_view"), figure_of(row, "right", "views"),
-               figure_of(row, "right_kind", "views"), figure_of(row, "right_near", "near"),
+               figure_of(row, "right_kind", "views"), figure_of(row, "right_best", "best"),
                figure_of(row, "right_sure", "sure"), is_hosted ? "" : hash_of(json, configuration)});
   }
   return table.markdown();
