@@ -88,7 +88,7 @@ void recognize_all(Hash& hash) {
     add_answer(all, wanted, is_there);
     if (is_best) add_answer(best, wanted, is_there);
     if (is_there && found[0].score > 0.5f + small_sensor::activated - 1) add_answer(sure, wanted, true);
-    if (view == 0) board::print_fact("fact", "points", points.size);
+    if (view == 0) board::print_fact("fact", "points", points.size);  // around one key point
     next += 2 + zones / 2;
   }
 }
@@ -113,6 +113,7 @@ int main() {
   board::print_fact("fact", "model_bytes", model_bytes);
   board::print_fact("fact", "codewords", model.codeword_count());
   board::print_fact("fact", "names", model.instance_count());
+  board::print_fact("fact", "keypoints", 1);
   board::print_fact("fact", "views", all.views);
   board::print_fact("fact", "right", all.right);
   board::print_fact("fact", "right_kind", all.right_kind);
