@@ -27,7 +27,7 @@ ss::StoredFeatures<Stored> described(const Points& points, const small_sensor::S
   features.keypoints.resize(1);
   features.keypoints[0].position = points.middle;
   features.frames = {small_sensor::own_axes};
-  static ss::Workspace<small_sensor::most_points> workspace;
+  ss::Workspace<small_sensor::most_points> workspace;
   Stored& out = features.descriptors[0];
   features.status = {sensor.has_few_points ? small_sensor::describe<true>(points, workspace, out)
                                            : small_sensor::describe<false>(points, workspace, out)};
