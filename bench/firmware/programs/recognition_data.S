@@ -1,4 +1,4 @@
-/* What firmware_recognition has written: a model, and views. */
+/* What firmware_recognition, or firmware_small_sensor, has written: a model, and views. */
 #if defined(__linux__)
     .section .note.GNU-stack, "", %progbits
 #endif

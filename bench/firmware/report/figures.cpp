@@ -43,9 +43,12 @@ class Builder {
       const std::string program = image.text("program");
       if (program == "size" && !image.text("configuration").empty()) add_size(image);
       if (program == "work") add_work(image);
-      if (program == "bits" || program == "recognition" || program == "recognition_on_host") add_bits(image);
-      if (program == "recognition") add_work(image);
-      if (program == "recognition_on_host") add_facts(image);
+      const bool is_board = program == "recognition" || program == "small_sensor";
+      const bool is_host = program == "recognition_on_host" || program == "small_sensor_on_host";
+      if (program == "bits" || is_board || is_host) add_bits(image);
+      if (is_board) add_work(image);
+      if (is_host) add_facts(image);
+      if (program == "small_sensor") add_whole(image);
       if (program == "recognizer_code") {
         figures(image, image.text("configuration"))["recognizer_code"] = flash_of(image) - flash_of(image, "alone");
       }
@@ -125,6 +128,14 @@ class Builder {
     }
   }
 
+  /// Of a whole program, start-up and all: its memory with the stack, and its flash but for the model.
+  void add_whole(const Facts& image) {
+    auto& out = figures(image, image.text("configuration"));
+    if (image.all("bytes").empty() || out.count("model_bytes") == 0) return;
+    out["code_bytes"] = flash_of(image) - out["model_bytes"];
+    out["ram_bytes"] = ram_of(image) + out["stack_painted"];
+  }
+
   void add_bits(const Facts& image) {
     const std::vector<Hash> hashes = hashes_of(image);
     measured_.hashes.insert(measured_.hashes.end(), hashes.begin(), hashes.end());
@@ -136,6 +147,9 @@ class Builder {
     if (has("work_describe_and_match") && has("work_match")) {
       f["work_describe"] = f["work_describe_and_match"] - f["work_match"];
       f["work_view"] = f["work_index"] + f["work_describe_and_match"] + f["work_find"];
+    }
+    if (has("work_points") && has("work_describe") && has("work_match") && has("work_find")) {
+      f["work_view"] = f["work_points"] + f["work_describe"] + f["work_match"] + f["work_find"];
     }
     if (has("views") && has("work_view")) f["wrong_views"] = f["views"] - f["right"];
     if (has("flash_brute") && has("flash_grid")) f["flash_grid_extra"] = f["flash_grid"] - f["flash_brute"];

@@ -43,6 +43,25 @@ constexpr Column recognition_columns[] = {
     {"match", "work_match", nullptr},     {"find", "work_find", nullptr},       {"view", "work_view", nullptr},
     {"views", "views", nullptr},          {"right", "right", nullptr},          {"classes", "right_classes", nullptr}};
 
+/// Of each small depth sensor: a program, too.
+constexpr const char* small_sensor = "SmallSensor";
+constexpr Column sensor_columns[] = {{"points", "points", nullptr},
+                                     {"RAM", "ram_bytes", nullptr},
+                                     {"stack", "stack_painted", nullptr},
+                                     {"code", "code_bytes", nullptr},
+                                     {"model", "model_bytes", nullptr},
+                                     {"to points", "work_points", nullptr},
+                                     {"describe", "work_describe", nullptr},
+                                     {"match", "work_match", nullptr},
+                                     {"view", "work_view", nullptr},
+                                     {"views", "views", nullptr},
+                                     {"right", "right", nullptr},
+                                     {"kind", "right_kind", nullptr},
+                                     {"best", "best", nullptr},
+                                     {"right", "right_best", nullptr},
+                                     {"sure", "sure", nullptr},
+                                     {"right", "right_sure", nullptr}};
+
 using Lines = std::vector<std::vector<std::string>>;
 
 std::string cell(const Row& row, const Column& column) {
@@ -98,7 +117,10 @@ const char* const legend =
     "workspace included; "
     "instructions\n"
     "of open() and, for a view of 100 key points, of the index, descriptions, comparisons with all codewords, and the "
-    "densest places.\n";
+    "densest places.\n"
+    "Small sensors: RAM: all of it, stack included; code: flash without the model; of the views how many are named "
+    "rightly, or\n"
+    "at least their kind; of those at the best distances; of those where all codewords agree.\n";
 
 }  // namespace
 
@@ -115,7 +137,13 @@ std::string tables(const Measured& measured) {
         lines.back().push_back(hash_of(measured, row));
       }
     };
-    is_recognition(configuration) ? add(recognition_columns) : add(columns);
+    if (is_recognition(configuration)) {
+      add(recognition_columns);
+    } else if (configuration.rfind(small_sensor, 0) == 0) {
+      add(sensor_columns);
+    } else {
+      add(columns);
+    }
     lines[0].push_back("hash");
     text += configuration + "\n" + aligned(lines) + "\n";
   }

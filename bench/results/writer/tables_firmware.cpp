@@ -1,5 +1,8 @@
 // Figures of the firmware targets.
+#include <algorithm>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "results/writer/markdown.hpp"
 #include "results/writer/tables.hpp"
@@ -71,6 +74,49 @@ std::string recognition_table(const Json& json, const std::string& task) {
                figure(row, "work_view"), figure(row, "right") + " of " + figure(row, "views")});
   }
   return table.markdown();
+}
+
+/// Small depth sensors: a program for each stands in the place of a configuration.
+constexpr const char* small_sensor = "SmallSensor";
+
+bool is_small_sensor(const std::string& configuration) { return configuration.rfind(small_sensor, 0) == 0; }
+
+std::string figure_of(const Json& row, const char* part, const char* whole_of) {
+  return row.count(part) == 0 ? "" : figure(row, part) + " of " + figure(row, whole_of);
+}
+
+std::string by_chance(const Json& row) {
+  return row.count("names") == 0 ? "" : whole(row["views"].get<double>() / row["names"].get<double>());
+}
+
+void add_small_sensor(const Json& row, const std::string& hash, Table& table) {
+  const std::string sensor = row.at("configuration").get<std::string>().substr(std::string(small_sensor).size());
+  const std::string target = row.at("target").get<std::string>() + " -" + row.at("level").get<std::string>();
+  table.add({sensor + " " + target, figure(row, "points"), figure(row, "keypoints"), figure(row, "ram_bytes"),
+             figure(row, "stack_painted"), figure(row, "code_bytes"), figure(row, "model_bytes"),
+             figure(row, "work_points"), figure(row, "work_describe"), figure(row, "work_match"),
+             figure(row, "work_view"), figure_of(row, "right", "views"), by_chance(row),
+             figure_of(row, "right_kind", "views"), figure_of(row, "right_best", "best"),
+             figure_of(row, "right_sure", "sure"), row.count("work_view") == 0 ? "" : hash});
+}
+
+/// All of them, sensor by sensor; what the hosted recognizer names of the same frames has a row of its own.
+std::string small_sensor_table(const Json& json) {
+  Table table({"Small sensors", "points", "key points", "RAM in all", "of it stack", "code", "model", "to points",
+               "describe", "match", "a view", "named rightly", "by chance", "their kind", "at 17 to 35 cm",
+               "sure and right", "hash"});
+  std::vector<std::string> sensors;
+  for (const Json& row : json.at("figures")) {
+    const std::string configuration = row.at("configuration");
+    const bool is_known = std::find(sensors.begin(), sensors.end(), configuration) != sensors.end();
+    if (is_small_sensor(configuration) && !is_known) sensors.push_back(configuration);
+  }
+  for (const std::string& sensor : sensors) {
+    for (const Json& row : json.at("figures")) {
+      if (row.at("configuration") == sensor) add_small_sensor(row, hash_of(json, sensor), table);
+    }
+  }
+  return sensors.empty() ? "" : "\n" + table.markdown();
 }
 
 /// Accuracy against bytes.
@@ -157,11 +203,12 @@ std::string firmware_tables(const Json& json) {
     if (configuration == last) continue;
     last = configuration;
     if (text.find("| " + configuration + " |") != std::string::npos) continue;
+    if (is_small_sensor(configuration)) continue;
     text += "\n" + table_for(json, configuration);
     const std::string hash = hash_of(json, configuration);
     if (!hash.empty()) text += "\nHash of the bits: " + hash + ", the same in every build.\n";
   }
-  return text;
+  return text + small_sensor_table(json);
 }
 
 }  // namespace shortshot_bench::results

@@ -122,6 +122,32 @@ TEST_CASE("the recognizer's code is what its program weighs more than one that d
   CHECK(measure(images).rows.back().figures.at("recognizer_code") == 330.0);
 }
 
+TEST_CASE("small sensors: memory with the stack, flash without the model; a host without an image has neither") {
+  const std::string program =
+      "program small_sensor\nworkspace compact\nsection points\nsection describe\nsection match\nsection find\n"
+      "fact stack_painted 1000\nconfiguration SmallSensor8x8\nhash SmallSensor8x8 02\nfact model_bytes 600\n"
+      "fact views 160\nfact right 105\nexit 0\ncount 10\ncount 300\ncount 50\ncount 7\n";
+  auto images = measured_images();
+  images.push_back(facts("board", "target m7\nlevel Os\n" + program +
+                                      "bytes .vectors 64\nbytes .text 900\nbytes .rodata 700\nbytes .views 5000\n"
+                                      "bytes .bss 2000\nbytes .stack 4096\n"));
+  images.push_back(facts("other", "target aarch64\nlevel O2\n" + program));
+  images.push_back(facts("host",
+                         "target host\nlevel O2\nprogram small_sensor_on_host\nconfiguration SmallSensor8x8\n"
+                         "workspace full\nfact views 160\nfact right 90\nexit 0\n"));
+  const Measured measured = measure(images);
+  REQUIRE(measured.rows.size() == 4);
+  const auto& board = measured.rows[1].figures;
+  CHECK((board.at("code_bytes") == 1064.0 && board.at("ram_bytes") == 3000.0));
+  CHECK((board.at("work_view") == 367.0 && board.at("wrong_views") == 55.0));
+  CHECK((measured.rows[2].figures.count("ram_bytes") == 0 && measured.rows[2].figures.at("wrong_views") == 55.0));
+  CHECK((measured.rows[3].figures.at("right") == 90.0 && measured.rows[3].figures.count("wrong_views") == 0));
+  CHECK(measured.hashes.back().configuration == "SmallSensor8x8");
+  CHECK(tables(measured).find("3000") != std::string::npos);
+  const Budget memory{"memory", "ram_bytes", 2999.0, 2999.0, {}, {}, {"SmallSensor8x8"}, {}};
+  CHECK(names(broken_budgets({memory}, measured.rows), "SmallSensor8x8 on m7"));
+}
+
 TEST_CASE("sections without counts are refused") {
   auto images = measured_images();
   images[2] = facts("work", "target m7\nlevel O2\nprogram work\nsection given_250\nexit 0\n");

@@ -147,6 +147,8 @@ TEST_CASE("firmware: the README's rows, and the page's tables") {
   CHECK(has(page, "| less (goal missed) | 475 | 560 | 555 | Scsh336 on m7 |\n"));
   CHECK(has(page, "| m7 -O2, compact | 5100 | 1100 | | | 444 | 324 | 555 | | 3210 | | |\n"));
   CHECK(has(page, "Hash of the bits: 0badcafe"));
+  CHECK(has(page, "| 8x8 host_shot352_floats -O2 | | | | | | | | | | | 83 of 160 | | | | | |\n"));
+  CHECK(has(page, "| 8x8 m7 -Os | 51 | 1 | 2764 | | 8708 | | | | | 200776 | 105 of 160 | 20 | | | 74 of 81 | |\n"));
   const std::string file = "bench/results/firmware.json";
   CHECK(has(refusal_of(file, "{}"), "'figures' not found"));
   CHECK(has(refusal_of(file, R"({"figures": [], "hashes": [], "budgets": []})"), "no figures of Ssh96 on m7 -Os"));
