@@ -9528,7 +9528,7 @@ class VoteDensity {
     SHORTSHOT_INLINE void add(F32 w, F32 x, F32 y, F32 z) noexcept {
       if constexpr (simd::lanes == 1) {
         const F32 terms[] = {w, x, y, z};
-        for (int k = 0; k < 4; ++k) sums_[k] += simd::largest(terms[k]);
+        each<4>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sums_[+k] += simd::largest(terms[k]); });
       } else {
         simd::Quad terms[simd::lanes];
         transpose(bits_of(w), bits_of(x), bits_of(y), bits_of(z), terms);
