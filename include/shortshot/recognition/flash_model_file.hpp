@@ -11,13 +11,14 @@
 #include <utility>
 #include <vector>
 
-#include "../base/math.hpp"
 #include "../config.hpp"
 #include "../status.hpp"
 #include "../store/byte_stream.hpp"
+#include "../store/stored_features.hpp"
 #include "codebook.hpp"
 #include "flash_model.hpp"
 #include "hypothesis.hpp"
+#include "model_view.hpp"
 #include "recognizer.hpp"
 
 namespace shortshot::detail {
@@ -44,12 +45,6 @@ inline constexpr FileKind flash_model_file{{flash_model_magic, 8}, flash_model_v
   return unit;
 }
 
-/// In whole units, to the nearest.
-[[nodiscard]] inline std::uint16_t units_of(float coordinate, float unit) noexcept {
-  const float units = std::nearbyint(coordinate / unit);
-  return static_cast<std::uint16_t>(static_cast<std::int16_t>(std::max(-32767.0f, std::min(units, 32767.0f))));
-}
-
 [[nodiscard]] inline bool fits_flash(const Codebook& codebook) noexcept {
   const auto has_zero = [](const std::string& text) { return text.find(char{0}) != std::string::npos; };
   for (const std::vector<std::string>* const names : {&codebook.classes, &codebook.instances}) {
@@ -59,6 +54,32 @@ inline constexpr FileKind flash_model_file{{flash_model_magic, 8}, flash_model_v
     }
   }
   return !has_zero(codebook.layout);
+}
+
+[[nodiscard]] inline const std::uint8_t* row_of(const FlashModel& model, std::uint32_t codeword) noexcept {
+  return model.codewords().row(codeword);
+}
+template <class Stored>
+[[nodiscard]] const std::uint8_t* row_of(const ModelView<Stored>& model, std::uint32_t codeword) noexcept {
+  return reinterpret_cast<const std::uint8_t*>(&model.descriptor(codeword));
+}
+
+template <class Model>
+void load(const Model& model, std::string_view layout, std::size_t row_bytes, Recognizer& out) {
+  Recognizer loaded(model.options());
+  Codebook& codebook = RecognizerAccess::codebook(loaded);
+  codebook.layout = layout;
+  codebook.row_size = row_bytes;
+  for (std::uint32_t i = 0; i < model.class_count(); ++i) codebook.classes.emplace_back(model.class_name(i));
+  for (std::uint32_t i = 0; i < model.instance_count(); ++i) {
+    codebook.instances.emplace_back(model.instance_name(i));
+    codebook.class_of.push_back(model.class_of(i));
+  }
+  for (std::uint32_t i = 0; i < model.codeword_count(); ++i) {
+    codebook.codewords.push_back({model.instance_of(i), model.center_of(i)});
+    codebook.packed.insert(codebook.packed.end(), row_of(model, i), row_of(model, i) + row_bytes);
+  }
+  out = std::move(loaded);
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -90,34 +111,29 @@ inline namespace SHORTSHOT_CODE {
   for (const std::string& name : codebook.instances) text += name + char{0};
   const std::uint64_t most = 0xFFFFFFFFu;
   if (codebook.codewords.size() > most || text.size() > most) return Status::bad_rows;
-  const auto row_bytes = static_cast<std::uint32_t>(codebook.row_size);
-  const auto codewords = static_cast<std::uint32_t>(codebook.codewords.size());
-  const auto instances = static_cast<std::uint32_t>(codebook.instances.size());
-  const detail::FlashLayout layout(row_bytes, codewords, instances, static_cast<std::uint32_t>(text.size()));
+  detail::FlashHeader header{0,
+                             detail::storage_number_of(codebook.layout),
+                             recognizer.options(),
+                             static_cast<std::uint32_t>(codebook.row_size),
+                             static_cast<std::uint32_t>(codebook.codewords.size()),
+                             static_cast<std::uint32_t>(codebook.instances.size()),
+                             static_cast<std::uint32_t>(codebook.classes.size()),
+                             static_cast<std::uint32_t>(text.size()),
+                             unit};
+  const detail::FlashLayout layout = header.layout();
   const std::uint64_t size_bytes = layout.checksum + detail::checksum_bytes;
   if (size_bytes > most) return Status::bad_rows;
 
   detail::ByteWriter to(bytes, detail::flash_model_file, static_cast<std::size_t>(size_bytes));
-  to.number(static_cast<std::uint32_t>(size_bytes));
-  to.number(detail::storage_number_of(codebook.layout));
-  to.real(recognizer.options().bandwidth);
-  to.number(recognizer.options().neighbors);
-  to.number(recognizer.options().most);
-  to.number(row_bytes);
-  to.number(codewords);
-  to.number(instances);
-  to.number(static_cast<std::uint32_t>(codebook.classes.size()));
-  to.number(static_cast<std::uint32_t>(text.size()));
-  to.real(unit);
+  header.size_bytes = static_cast<std::uint32_t>(size_bytes);
+  detail::write(to, header);
   for (const std::uint32_t object_class : codebook.class_of) to.number(static_cast<std::uint16_t>(object_class));
   to.pad(static_cast<std::size_t>(layout.codewords));
+  const std::uint8_t* row = codebook.packed.data();
   for (const detail::Codebook::Codeword& codeword : codebook.codewords) {
-    to.number(static_cast<std::uint16_t>(codeword.instance));
-    to.number(detail::units_of(codeword.center.x, unit));
-    to.number(detail::units_of(codeword.center.y, unit));
-    to.number(detail::units_of(codeword.center.z, unit));
+    detail::write_codeword(to, codeword.instance, codeword.center, unit);
+    for (const std::uint8_t* const end = row + codebook.row_size; row != end; ++row) to.number(*row);
   }
-  for (const std::uint8_t byte : codebook.packed) to.number(byte);
   for (const char c : text) to.number(static_cast<std::uint8_t>(c));
   to.pad(static_cast<std::size_t>(layout.checksum));
   to.finish();
@@ -136,20 +152,16 @@ inline namespace SHORTSHOT_CODE {
   if (status != Status::ok) return status;
   if (model.text(0) != layout || model.storage() != detail::storage_number_of(std::string(layout)))
     return Status::other_descriptor;
-  Recognizer loaded(model.options());
-  detail::Codebook& codebook = detail::RecognizerAccess::codebook(loaded);
-  codebook.layout = layout;
-  codebook.row_size = model.row_bytes();
-  for (std::uint32_t i = 0; i < model.class_count(); ++i) codebook.classes.emplace_back(model.text(1 + i));
-  for (std::uint32_t i = 0; i < model.instance_count(); ++i) {
-    codebook.instances.emplace_back(model.text(1 + model.class_count() + i));
-    codebook.class_of.push_back(model.class_of(i));
-  }
-  for (std::uint32_t i = 0; i < model.codeword_count(); ++i) {
-    codebook.codewords.push_back({model.instance_of(i), model.center_of(i)});
-  }
-  codebook.packed.assign(model.row(0), model.row(model.codeword_count()));
-  out = std::move(loaded);
+  detail::load(model, layout, model.row_bytes(), out);
+  return Status::ok;
+}
+
+/// The same of a model that is open, with what was learned on the spot (LearnedObjects::model()). Statuses:
+/// not_trained.
+template <class Stored>
+[[nodiscard]] Status load_from_flash(const ModelView<Stored>& model, Recognizer& out) {
+  if (model.codeword_count() == 0) return Status::not_trained;
+  detail::load(model, storage_layout<Stored>(), sizeof(Stored), out);
   return Status::ok;
 }
 

@@ -18,8 +18,8 @@
 #include "../status.hpp"
 #include "../store/storage.hpp"
 #include "climb.hpp"
-#include "flash_model.hpp"
 #include "hypothesis.hpp"
+#include "model_view.hpp"
 #include "vote_centers.hpp"
 #include "vote_density.hpp"
 
@@ -37,6 +37,14 @@ struct VotesOfClass {
 
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
+
+/// A key point as recognizers need it. Trivial type.
+template <class Stored>
+struct StoredKeyPoint {
+  Stored descriptor;
+  Point position;
+  Frame frame;
+};
 
 /// Recognizes objects as recognize() does, with memory whose size is known before the program runs: sizeof this. The
 /// hypotheses are those of recognize() with the recognizer that load_from_flash() makes of the model, bit for bit, for
@@ -86,22 +94,32 @@ class MicroRecognizer {
   template <class Search, class Place = KeyPoint, class... Own>
   [[nodiscard]] Status add(const CloudView& cloud, const Search& search, const Place& place, const Support& support,
                            const Own&... own) noexcept {
-    const Status status = ready();
-    if (status != Status::ok) return status;
-    Frame frame;
-    Point position;
-    const Status described = detail::describe_key<D>(
+    Status status = ready();
+    StoredKeyPoint<Stored> described;
+    if (status == Status::ok) status = describe(cloud, search, place, support, described, own...);
+    if (status == Status::ok) vote(described.descriptor, described.position, described.frame);
+    return status;
+  }
+
+  /// Describes alone, for LearnedObjects or another add(): with or without a model. Statuses: those of describe_at();
+  /// `out` is all zeros then.
+  template <class Search, class Place = KeyPoint, class... Own>
+  [[nodiscard]] Status describe(const CloudView& cloud, const Search& search, const Place& place,
+                                const Support& support, StoredKeyPoint<Stored>& out, const Own&... own) noexcept {
+    out = {};
+    const Status status = detail::describe_key<D>(
         cloud, search, place, support, workspace_, values_,
         [&](const auto& n, const auto& sources, const Point& at) {
-          position = at;
-          return detail::describe_gathered<D, default_chunk_size>(n, sources, at, support, frame, values_);
+          out.position = at;
+          return detail::describe_gathered<D, default_chunk_size>(n, sources, at, support, out.frame, values_);
         },
         own...);
-    if (described != Status::ok) return described;
-    Stored stored;
-    detail::Storage<Stored>::make(values_, stored);
-    vote(stored, position, frame);
-    return Status::ok;
+    if (status == Status::ok) {
+      detail::Storage<Stored>::make(values_, out.descriptor);
+    } else {
+      out = {};
+    }
+    return status;
   }
 
   /// The same for what was described elsewhere. Also invalid_keypoint and bad_frame.
@@ -157,16 +175,16 @@ class MicroRecognizer {
   /// Nearest first, the first ones of those that are as near; returns how many count.
   std::size_t find_nearest(const Stored& stored, Activated (&nearest)[MaxActivated]) const noexcept {
     for (Activated& none : nearest) none = {0, 0xFFFFFFFFu};
-    for (std::uint32_t codeword = 0; codeword < model_.codeword_count(); ++codeword) {
+    model_.for_each_codeword([&](std::uint32_t codeword, const Stored& descriptor) {
       const std::uint32_t limit = nearest[MaxActivated - 1].distance;
-      Activated next{codeword, detail::Storage<Stored>::distance_below(stored, model_.descriptor(codeword), limit)};
-      if (!(next.distance < limit)) continue;
+      Activated next{codeword, detail::Storage<Stored>::distance_below(stored, descriptor, limit)};
+      if (!(next.distance < limit)) return;
       bool is_nearer = false;  // and then all that come later make room
       for (Activated& known : nearest) {
         is_nearer = is_nearer || next.distance < known.distance;
         if (is_nearer) std::swap(next, known);
       }
-    }
+    });
     const std::uint32_t most = model_.options().neighbors;
     return most < model_.codeword_count() ? most : model_.codeword_count();
   }
