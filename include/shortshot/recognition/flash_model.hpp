@@ -150,6 +150,7 @@ class FlashModel {
     return Status::ok;
   }
 
+  [[nodiscard]] std::uint32_t size_bytes() const noexcept { return header_.size_bytes; }
   [[nodiscard]] std::uint64_t storage() const noexcept { return header_.storage; }
   [[nodiscard]] const RecognizerOptions& options() const noexcept { return header_.options; }
   [[nodiscard]] std::uint32_t row_bytes() const noexcept { return header_.row_bytes; }

@@ -38,14 +38,6 @@ struct VotesOfClass {
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
-/// A key point as recognizers need it. Trivial type.
-template <class Stored>
-struct StoredKeyPoint {
-  Stored descriptor;
-  Point position;
-  Frame frame;
-};
-
 /// Recognizes objects as recognize() does, with memory whose size is known before the program runs: sizeof this. The
 /// hypotheses are those of recognize() with the recognizer that load_from_flash() makes of the model, bit for bit, for
 /// the same key points in the same order.

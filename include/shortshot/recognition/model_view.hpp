@@ -100,10 +100,10 @@ class ModelView {
     std::uint32_t codeword = 0;
     for (std::uint32_t part = 0; part <= learned_count_; ++part) {
       const detail::CodewordRun run = run_of(part);
-      const std::uint8_t* row = run.bytes + detail::FlashLayout::before_row;
+      const std::uint8_t* at = run.bytes;
       for (const std::uint32_t end = codeword + run.count; codeword < end; ++codeword) {
-        use(codeword, stored(row));
-        row += detail::FlashLayout::before_row + sizeof(Stored);
+        use(codeword, stored(at + detail::FlashLayout::before_row));
+        at += detail::FlashLayout::before_row + sizeof(Stored);
       }
     }
   }
