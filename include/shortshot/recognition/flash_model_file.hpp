@@ -56,6 +56,25 @@ inline constexpr FileKind flash_model_file{{flash_model_magic, 8}, flash_model_v
   return !has_zero(codebook.layout);
 }
 
+/// What stands behind the codewords.
+[[nodiscard]] inline std::string flash_text(const Codebook& codebook) {
+  std::string text = codebook.layout + char{0};
+  for (const std::string& name : codebook.classes) text += name + char{0};
+  for (const std::string& name : codebook.instances) text += name + char{0};
+  return text;
+}
+
+/// How many codewords a model has that is no larger, with all names.
+[[nodiscard]] inline std::size_t codewords_in_flash(const Codebook& codebook, std::size_t most_bytes) {
+  const auto row_bytes = static_cast<std::uint32_t>(codebook.row_size);
+  const auto text_bytes = static_cast<std::uint32_t>(flash_text(codebook).size());
+  const FlashLayout empty(row_bytes, 0, static_cast<std::uint32_t>(codebook.instances.size()), text_bytes);
+  const std::uint64_t most = most_bytes / 4 * 4;
+  if (most < empty.checksum + checksum_bytes) return 0;
+  return static_cast<std::size_t>((most - checksum_bytes - empty.text - text_bytes) /
+                                  (FlashLayout::before_row + row_bytes));
+}
+
 [[nodiscard]] inline const std::uint8_t* row_of(const FlashModel& model, std::uint32_t codeword) noexcept {
   return model.codewords().row(codeword);
 }
@@ -106,9 +125,7 @@ inline namespace SHORTSHOT_CODE {
   const float unit = detail::unit_of_centers(codebook.codewords);
   if (unit > 1e29f) return Status::bad_rows;
 
-  std::string text = codebook.layout + char{0};
-  for (const std::string& name : codebook.classes) text += name + char{0};
-  for (const std::string& name : codebook.instances) text += name + char{0};
+  const std::string text = detail::flash_text(codebook);
   const std::uint64_t most = 0xFFFFFFFFu;
   if (codebook.codewords.size() > most || text.size() > most) return Status::bad_rows;
   detail::FlashHeader header{0,
