@@ -9823,7 +9823,7 @@ class UnitWriter {
   UnitWriter(Memory& memory, std::size_t begin) noexcept : memory_(&memory), at_(begin) {}
 
   /// False from the first unit on that the memory did not take.
-  [[nodiscard]] bool good() const noexcept { return good_; }
+  [[nodiscard]] bool good() const noexcept { return !has_failed_; }
   [[nodiscard]] std::size_t at() const noexcept { return at_; }
 
   template <class Unsigned>
@@ -9853,7 +9853,7 @@ class UnitWriter {
   [[gnu::noinline]] void append(std::uint64_t value, std::size_t count) noexcept {
     for (std::size_t k = 0; k < count; ++k, value >>= 8) {
       unit_[at_ % unit_bytes] = static_cast<std::uint8_t>(value & 0xFFu);
-      if (++at_ % unit_bytes == 0) good_ = good_ && program(at_ - unit_bytes);
+      if (++at_ % unit_bytes == 0) has_failed_ = has_failed_ || !program(at_ - unit_bytes);
     }
   }
 
@@ -9871,7 +9871,7 @@ class UnitWriter {
   Memory* memory_ = nullptr;
   std::size_t at_ = 0;
   std::uint8_t unit_[unit_bytes] = {};
-  bool good_ = true;
+  bool has_failed_ = false;
 };
 
 }  // namespace SHORTSHOT_CODE
@@ -9993,7 +9993,7 @@ class LearnedObjects {
   [[nodiscard]] Status commit(const char* object_class, const char* instance) noexcept {
     if (codewords_ == 0) return Status::not_trained;
     if (object_class == nullptr || instance == nullptr) return Status::bad_option;
-    const std::uint64_t text_bytes = 1 + text_size(object_class) + text_size(instance);
+    const std::uint64_t text_bytes = std::uint64_t{1} + text_size(object_class) + text_size(instance);
     if (model_.learned_count_ == MaxObjects || !fits(text_bytes)) return Status::out_of_memory;
     detail::FlashHeader header{0,
                                detail::storage_number<Stored>,
@@ -10030,9 +10030,10 @@ class LearnedObjects {
   [[nodiscard]] static constexpr std::size_t whole_units(std::size_t bytes) noexcept {
     return (bytes + unit_bytes - 1) / unit_bytes * unit_bytes;
   }
-  [[nodiscard]] static std::size_t text_size(const char* text) noexcept {
+  /// With the 0 behind it; more than the memory has if it does not fit. (Without a bound it were a call of strlen.)
+  [[nodiscard]] std::size_t text_size(const char* text) const noexcept {
     std::size_t size = 1;
-    while (text[size - 1] != 0) ++size;
+    while (size <= size_bytes() && text[size - 1] != 0) ++size;
     return size;
   }
   [[nodiscard]] std::size_t size_bytes() const noexcept { return memory_->size_bytes() / unit_bytes * unit_bytes; }

@@ -139,7 +139,7 @@ class LearnedObjects {
   [[nodiscard]] Status commit(const char* object_class, const char* instance) noexcept {
     if (codewords_ == 0) return Status::not_trained;
     if (object_class == nullptr || instance == nullptr) return Status::bad_option;
-    const std::uint64_t text_bytes = 1 + text_size(object_class) + text_size(instance);
+    const std::uint64_t text_bytes = std::uint64_t{1} + text_size(object_class) + text_size(instance);
     if (model_.learned_count_ == MaxObjects || !fits(text_bytes)) return Status::out_of_memory;
     detail::FlashHeader header{0,
                                detail::storage_number<Stored>,
@@ -176,9 +176,10 @@ class LearnedObjects {
   [[nodiscard]] static constexpr std::size_t whole_units(std::size_t bytes) noexcept {
     return (bytes + unit_bytes - 1) / unit_bytes * unit_bytes;
   }
-  [[nodiscard]] static std::size_t text_size(const char* text) noexcept {
+  /// With the 0 behind it; more than the memory has if it does not fit. (Without a bound it were a call of strlen.)
+  [[nodiscard]] std::size_t text_size(const char* text) const noexcept {
     std::size_t size = 1;
-    while (text[size - 1] != 0) ++size;
+    while (size <= size_bytes() && text[size - 1] != 0) ++size;
     return size;
   }
   [[nodiscard]] std::size_t size_bytes() const noexcept { return memory_->size_bytes() / unit_bytes * unit_bytes; }

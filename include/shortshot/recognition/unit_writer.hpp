@@ -25,7 +25,7 @@ class UnitWriter {
   UnitWriter(Memory& memory, std::size_t begin) noexcept : memory_(&memory), at_(begin) {}
 
   /// False from the first unit on that the memory did not take.
-  [[nodiscard]] bool good() const noexcept { return good_; }
+  [[nodiscard]] bool good() const noexcept { return !has_failed_; }
   [[nodiscard]] std::size_t at() const noexcept { return at_; }
 
   template <class Unsigned>
@@ -55,7 +55,7 @@ class UnitWriter {
   [[gnu::noinline]] void append(std::uint64_t value, std::size_t count) noexcept {
     for (std::size_t k = 0; k < count; ++k, value >>= 8) {
       unit_[at_ % unit_bytes] = static_cast<std::uint8_t>(value & 0xFFu);
-      if (++at_ % unit_bytes == 0) good_ = good_ && program(at_ - unit_bytes);
+      if (++at_ % unit_bytes == 0) has_failed_ = has_failed_ || !program(at_ - unit_bytes);
     }
   }
 
@@ -73,7 +73,7 @@ class UnitWriter {
   Memory* memory_ = nullptr;
   std::size_t at_ = 0;
   std::uint8_t unit_[unit_bytes] = {};
-  bool good_ = true;
+  bool has_failed_ = false;
 };
 
 }  // namespace SHORTSHOT_CODE
