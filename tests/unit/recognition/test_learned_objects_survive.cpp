@@ -125,6 +125,27 @@ TEST_CASE("learned objects: the power may go with every write") {
   check_cuts<64>(20);
 }
 
+TEST_CASE("learned objects: a checksum may end as erased memory does") {
+  std::size_t such = 0;
+  for (std::uint32_t trial = 0; trial < 2000; ++trial) {
+    Flash<1> flash(1024);
+    Learned<1> learned;
+    REQUIRE(learned.open(nothing, flash) == Status::ok);
+    ss::StoredKeyPoint<Stored> key = key_of(1, 0);
+    key.position.y = 1e-4f * static_cast<float>(trial);
+    REQUIRE(learned.add(key, center) == Status::ok);
+    REQUIRE(learned.commit("made", "1") == Status::ok);
+    if (flash.content[flash.size_bytes() - learned.bytes_left() - 1] != 0xFF) continue;
+    ++such;
+    REQUIRE(learn(learned, 2) == Status::ok);
+    Learned<1> again;
+    REQUIRE(again.open(nothing, flash) == Status::ok);
+    REQUIRE(again.model().instance_count() == 2);
+    REQUIRE(flash.refused == 0);
+  }
+  CHECK(such > 0);
+}
+
 TEST_CASE("learned objects: the power may go again and again, until the memory is full") {
   Random random(5);
   std::size_t longest = 0;

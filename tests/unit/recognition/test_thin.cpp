@@ -133,6 +133,19 @@ TEST_CASE("thin: what is seen again stays, what was seen once goes") {
   CHECK(seen_again == 6 * 11);
 }
 
+TEST_CASE("thin: who was seen more often can spare some, whose votes others cast as well") {
+  ss::Recognizer all({0.001f, 1, 8});  // no two key points vote for the same place by chance
+  for (const std::uint32_t shown : {1u, 1u, 1u, 1u, 2u, 2u}) {
+    const auto seed = static_cast<std::uint32_t>(all.codeword_count()) + 1;
+    REQUIRE(ss::train(all, stored<Bits>(view_of<D>(shown, no_motion, seed)), {}, "a", "b") == Status::ok);
+  }
+  ss::Recognizer thinned;
+  REQUIRE(ss::thin<Bits>(all, 44, thinned) == Status::ok);  // 2 of 4 and 2 of 2 views of 11 key points
+  const auto& whole = ss::detail::RecognizerAccess::codebook(all);
+  const auto& kept = ss::detail::RecognizerAccess::codebook(thinned);
+  CHECK(std::equal(kept.packed.end() - 22 * sizeof(Bits), kept.packed.end(), whole.packed.end() - 22 * sizeof(Bits)));
+}
+
 TEST_CASE("thin: a model is as large as it may be, and no larger") {
   const ss::Recognizer all = trained<Nibbles>();
   const std::size_t whole = model_of(all).size();
