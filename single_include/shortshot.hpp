@@ -1323,10 +1323,11 @@ enum class [[nodiscard]] Status : std::uint8_t {
   short_rows,           ///< a message's rows are shorter than their points, and its data is not as long as all points
   other_cloud,          ///< the search is over another cloud than the one that is described
   coarse_coordinates,   ///< coordinates so large that floats lie farther apart than a 64th of the radius
+  not_written,          ///< a memory does not hold what was written to it: it was not erased, or is worn out
 };
 // clang-format on
 
-inline constexpr int status_count = static_cast<int>(Status::coarse_coordinates) + 1;
+inline constexpr int status_count = static_cast<int>(Status::not_written) + 1;
 
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
@@ -1377,6 +1378,7 @@ inline namespace SHORTSHOT_CODE {
     case Status::other_cloud: return "the search was built over another cloud";
     case Status::coarse_coordinates:
       return "the coordinates are too large: float rounds them to steps that are not small against the radius";
+    case Status::not_written: return "the memory does not hold what was written to it";
   }
   return "unknown status";
 }
@@ -8240,10 +8242,14 @@ template <class Neighbors, class Colors>
 }  // namespace shortshot
 #endif  // SHORTSHOT_FRAME_FIXED_LAMP_FRAME_HPP
 
-// shortshot/recognition/micro_recognizer.hpp: recognition without a heap: a view's key points one after the other,
-// against a model in flash.
-#ifndef SHORTSHOT_RECOGNITION_MICRO_RECOGNIZER_HPP
-#define SHORTSHOT_RECOGNITION_MICRO_RECOGNIZER_HPP
+// shortshot/recognition/learned_objects.hpp: objects that are learned where they are seen, in memory that survives: a
+// log of models of one object each (see flash_model.hpp), behind the model that was trained on a PC.
+//
+// A model's codewords are written as they come, then its names, its header, and its checksum at last: it is there with
+// the last unit of that, or not at all. Where one ends, or was torn, the next one begins. All begin with a unit, so
+// they are found by looking at each: at the first 8 characters, and if these are right, at the checksum.
+#ifndef SHORTSHOT_RECOGNITION_LEARNED_OBJECTS_HPP
+#define SHORTSHOT_RECOGNITION_LEARNED_OBJECTS_HPP
 
 // shortshot/frame/local_point.hpp: a point as a frame sees it.
 #ifndef SHORTSHOT_FRAME_LOCAL_POINT_HPP
@@ -8268,16 +8274,12 @@ inline namespace SHORTSHOT_CODE {
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_FRAME_LOCAL_POINT_HPP
 
-// shortshot/store/storage.hpp: what the storages of a descriptor have in common: how they are made, and what they are
-// called.
-#ifndef SHORTSHOT_STORE_STORAGE_HPP
-#define SHORTSHOT_STORE_STORAGE_HPP
-
-// shortshot/descriptor/layout_text.hpp: what the values of a descriptor mean, in English: for files, and for code that
-// knows descriptors only at run time. What becomes of the text is up to whom it is told to: a string (layout_of.hpp),
-// or a number (LayoutNumber), which needs no memory.
-#ifndef SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
-#define SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
+// shortshot/store/checksum.hpp: by which damage is noticed: 64-bit FNV-1a.
+//
+// FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
+// does once in 2^64 times. It is no protection from who means harm; nobody believes a number because of it.
+#ifndef SHORTSHOT_STORE_CHECKSUM_HPP
+#define SHORTSHOT_STORE_CHECKSUM_HPP
 
 // shortshot/base/fnv1a.hpp: 64-bit FNV-1a, a number for a sequence of bytes.
 #ifndef SHORTSHOT_BASE_FNV1A_HPP
@@ -8296,6 +8298,33 @@ inline constexpr std::uint64_t fnv1a_of_nothing = 0xCBF29CE484222325u;
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_BASE_FNV1A_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline constexpr std::size_t checksum_bytes = 8;
+
+/// `hash`: that of all bytes before these.
+[[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size,
+                                            std::uint64_t hash = fnv1a_of_nothing) noexcept {
+  for (std::size_t i = 0; i < size; ++i) hash = fnv1a(hash, bytes[i]);
+  return hash;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_STORE_CHECKSUM_HPP
+
+// shortshot/store/storage.hpp: what the storages of a descriptor have in common: how they are made, and what they are
+// called.
+#ifndef SHORTSHOT_STORE_STORAGE_HPP
+#define SHORTSHOT_STORE_STORAGE_HPP
+
+// shortshot/descriptor/layout_text.hpp: what the values of a descriptor mean, in English: for files, and for code that
+// knows descriptors only at run time. What becomes of the text is up to whom it is told to: a string (layout_of.hpp),
+// or a number (LayoutNumber), which needs no memory.
+#ifndef SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
+#define SHORTSHOT_DESCRIPTOR_LAYOUT_TEXT_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -9397,6 +9426,798 @@ inline constexpr std::uint64_t storage_number = [] {
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_STORE_STORAGE_HPP
 
+// shortshot/recognition/flash_model.hpp: a trained recognizer as bytes that are read where they lie, in flash:
+// save_for_flash() writes them.
+//
+// All numbers are little-endian, floats by their bits:
+//
+//      0  8 characters "SSHOTFLA", 4 bytes format version, 4 bytes size of all, a multiple of 4
+//     16  8 bytes storage_number of what is stored
+//     24  options: 4 bytes each bandwidth, neighbors, most
+//     36  3 bytes: bytes of a row; 1 byte: bits of a number of a row, or 0 if these are in the descriptor's order
+//     40  4 bytes each: codewords, instances, classes, bytes of text
+//     56  4 bytes, as a float: the unit of centers in meters, a power of two
+//     60  for each instance 2 bytes class; 2 bytes 0 if that is no multiple of 4
+//         unless that is 0, for each number of a row 2 bytes, which one of the descriptor it is; 2 bytes 0 if that is
+//         no multiple of 4 for each codeword 2 bytes instance, 3 times 2 bytes center in the key point's frame, signed,
+//         and its row of codes or bits, without gaps text, a 0 behind each: storage_layout, names of classes, names of
+//         instances up to three bytes 0 8 bytes checksum (64-bit FNV-1a) of all bytes before it
+#ifndef SHORTSHOT_RECOGNITION_FLASH_MODEL_HPP
+#define SHORTSHOT_RECOGNITION_FLASH_MODEL_HPP
+
+// shortshot/recognition/hypothesis.hpp: what recognizers are told, and what they say.
+#ifndef SHORTSHOT_RECOGNITION_HYPOTHESIS_HPP
+#define SHORTSHOT_RECOGNITION_HYPOTHESIS_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+struct RecognizerOptions {
+  float bandwidth = 0.03f;      ///< h of the density of votes, 1e-6 to 1e6 meters: about how far votes miss the center
+  std::uint32_t neighbors = 1;  ///< nearest codewords that each descriptor activates, 1 to 1024
+  std::uint32_t most = 8;       ///< hypotheses at the most, from 1 on
+};
+
+/// An object that may be there; see Recognizer::class_name() and instance_name() for the numbers. Trivial type.
+struct Hypothesis {
+  std::uint32_t object_class;
+  std::uint32_t instance;
+  Point center;  ///< where that of the training views is in this view
+  float score;   ///< density of the class' votes there: 1 for each that hits it, exp(-d^2 / (2 h^2)) if d meters off
+};
+
+/// A key point as recognizers need it. Trivial type.
+template <class Stored>
+struct StoredKeyPoint {
+  Stored descriptor;
+  Point position;
+  Frame frame;
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// ok or bad_option.
+[[nodiscard]] inline Status validate(const RecognizerOptions& options) noexcept {
+  const bool usable = options.bandwidth >= 1e-6f && options.bandwidth <= 1e6f && options.neighbors >= 1 &&
+                      options.neighbors <= 1024 && options.most >= 1;
+  return usable ? Status::ok : Status::bad_option;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Does one of these say the same: the class, within the bandwidth of the place?
+[[nodiscard]] inline bool is_known(const Hypothesis* known, std::size_t count, std::uint32_t object_class,
+                                   const Point& at, float bandwidth) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool same_class = known[i].object_class == object_class;
+    if (same_class && squared_distance(known[i].center, at) <= unfused(bandwidth * bandwidth)) return true;
+  }
+  return false;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_HYPOTHESIS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline constexpr char flash_model_magic[] = "SSHOTFLA";
+inline constexpr std::uint32_t flash_model_version = 1;
+
+[[nodiscard]] inline std::uint32_t number16(const std::uint8_t* bytes) noexcept {
+  return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
+}
+[[nodiscard]] inline std::uint32_t number32(const std::uint8_t* bytes) noexcept {
+  return number16(bytes) | number16(bytes + 2) << 16;
+}
+[[nodiscard]] inline std::uint64_t number64(const std::uint8_t* bytes) noexcept {
+  return number32(bytes) | static_cast<std::uint64_t>(number32(bytes + 4)) << 32;
+}
+
+/// Where the parts of a model begin, by how many there are of each. Numbers of 64 bits: sums of products of what may be
+/// damaged fit.
+struct FlashLayout {
+  static constexpr std::uint64_t header = 60;
+  static constexpr std::uint64_t before_row = 8;  // of a codeword
+
+  std::uint64_t order;
+  std::uint64_t codewords;
+  std::uint64_t text;
+  std::uint64_t checksum;
+
+  [[nodiscard]] static constexpr std::uint64_t whole(std::uint64_t bytes) noexcept { return (bytes + 3) / 4 * 4; }
+
+  constexpr FlashLayout(std::uint32_t row_bytes, std::uint32_t number_count, std::uint32_t codeword_count,
+                        std::uint32_t instance_count, std::uint32_t text_bytes) noexcept
+      : order(header + whole(2 * std::uint64_t{instance_count})),
+        codewords(order + whole(2 * std::uint64_t{number_count})),
+        text(codewords + (before_row + row_bytes) * codeword_count),
+        checksum(whole(text + text_bytes)) {}
+};
+
+/// What stands before the codewords, but for the first 12 bytes.
+struct FlashHeader {
+  std::uint32_t size_bytes = 0;
+  std::uint64_t storage = 0;
+  RecognizerOptions options{0.0f, 0, 0};
+  std::uint32_t row_bytes = 0;
+  std::uint32_t number_bits = 0;
+  std::uint32_t codewords = 0;
+  std::uint32_t instances = 0;
+  std::uint32_t classes = 0;
+  std::uint32_t text_bytes = 0;
+  float unit = 0.0f;
+
+  /// Of numbers whose order the model has.
+  [[nodiscard]] constexpr std::uint32_t number_count() const noexcept {
+    return number_bits == 0 ? 0 : 8 * row_bytes / number_bits;
+  }
+  [[nodiscard]] constexpr FlashLayout layout() const noexcept {
+    return {row_bytes, number_count(), codewords, instances, text_bytes};
+  }
+};
+
+template <class Writer>
+void write(Writer& to, const FlashHeader& header) {
+  to.number(header.size_bytes);
+  to.number(header.storage);
+  to.number(math::bits_of(header.options.bandwidth));
+  to.number(header.options.neighbors);
+  to.number(header.options.most);
+  to.number(header.row_bytes | header.number_bits << 24);
+  to.number(header.codewords);
+  to.number(header.instances);
+  to.number(header.classes);
+  to.number(header.text_bytes);
+  to.number(math::bits_of(header.unit));
+}
+
+/// A coordinate in whole units, to the nearest.
+[[nodiscard]] inline std::uint16_t units_of(float coordinate, float unit) noexcept {
+  const float units = coordinate / unit;
+  std::int32_t rounded[extend::simd::lanes];
+  store(rounded, round_to_int(extend::simd::all(units > 32767.0f ? 32767.0f : units < -32767.0f ? -32767.0f : units)));
+  return static_cast<std::uint16_t>(rounded[0]);
+}
+
+/// What stands before a codeword's row.
+template <class Writer>
+void write_codeword(Writer& to, std::uint32_t instance, const Point& center, float unit) {
+  to.number(static_cast<std::uint16_t>(instance));
+  to.number(units_of(center.x, unit));
+  to.number(units_of(center.y, unit));
+  to.number(units_of(center.z, unit));
+}
+
+/// Codewords as a model has them, one behind the other.
+struct CodewordRun {
+  const std::uint8_t* bytes = nullptr;
+  std::uint32_t count = 0;
+  std::uint32_t row_bytes = 0;
+  float unit = 0.0f;
+  bool is_arranged = false;  // not in the descriptor's order
+
+  [[nodiscard]] const std::uint8_t* at(std::uint32_t i) const noexcept {
+    return bytes + (FlashLayout::before_row + row_bytes) * i;
+  }
+  [[nodiscard]] const std::uint8_t* row(std::uint32_t i) const noexcept { return at(i) + FlashLayout::before_row; }
+  [[nodiscard]] std::uint32_t instance_of(std::uint32_t i) const noexcept { return number16(at(i)); }
+  [[nodiscard]] Point center_of(std::uint32_t i) const noexcept {
+    const auto coordinate = [&](std::uint32_t offset) {
+      return static_cast<float>(static_cast<std::int16_t>(number16(at(i) + offset))) * unit;
+    };
+    return {coordinate(2), coordinate(4), coordinate(6)};
+  }
+};
+
+/// A model of any storage. Validated once, in open(): a look at each byte, and at each codeword, instance and name.
+class FlashModel {
+ public:
+  constexpr FlashModel() noexcept = default;
+  /// None yet, but its options are known.
+  explicit constexpr FlashModel(const RecognizerOptions& options) noexcept { header_.options = options; }
+
+  /// Statuses: not_a_model, other_version, damaged_model. What was open before stays so if it is not ok.
+  [[nodiscard]] Status open(const std::uint8_t* bytes, std::size_t size_bytes) noexcept {
+    if (bytes == nullptr || size_bytes < 8) return Status::not_a_model;
+    for (std::size_t i = 0; i < 8; ++i) {
+      if (bytes[i] != static_cast<std::uint8_t>(flash_model_magic[i])) return Status::not_a_model;
+    }
+    if (size_bytes < 12) return Status::damaged_model;
+    if (number32(bytes + 8) != flash_model_version) return Status::other_version;
+    FlashModel model;
+    if (!model.read(bytes, size_bytes) || !model.is_sound()) return Status::damaged_model;
+    *this = model;
+    return Status::ok;
+  }
+
+  [[nodiscard]] std::uint32_t size_bytes() const noexcept { return header_.size_bytes; }
+  [[nodiscard]] std::uint64_t storage() const noexcept { return header_.storage; }
+  [[nodiscard]] const RecognizerOptions& options() const noexcept { return header_.options; }
+  [[nodiscard]] std::uint32_t row_bytes() const noexcept { return header_.row_bytes; }
+  [[nodiscard]] std::uint32_t codeword_count() const noexcept { return header_.codewords; }
+  [[nodiscard]] std::uint32_t instance_count() const noexcept { return header_.instances; }
+  [[nodiscard]] std::uint32_t class_count() const noexcept { return header_.classes; }
+  [[nodiscard]] std::uint32_t class_of(std::uint32_t instance) const noexcept {
+    return number16(bytes_ + FlashLayout::header + 2 * std::size_t{instance});
+  }
+  [[nodiscard]] const char* class_name(std::uint32_t object_class) const noexcept { return text(1 + object_class); }
+  [[nodiscard]] const char* instance_name(std::uint32_t instance) const noexcept {
+    return text(1 + class_count() + instance);
+  }
+  [[nodiscard]] std::uint32_t number_bits() const noexcept { return header_.number_bits; }
+  /// Which number of a descriptor is number i of a row, of number_count() ones: those come first that tell most
+  /// codewords apart. 0, and the order is that of the descriptor.
+  [[nodiscard]] std::uint32_t number_count() const noexcept { return header_.number_count(); }
+  [[nodiscard]] std::uint32_t place_of(std::uint32_t i) const noexcept {
+    return number16(bytes_ + header_.layout().order + 2 * std::size_t{i});
+  }
+  [[nodiscard]] CodewordRun codewords() const noexcept {
+    const std::uint8_t* const begin = bytes_ == nullptr ? nullptr : bytes_ + header_.layout().codewords;
+    return {begin, header_.codewords, header_.row_bytes, header_.unit, header_.number_bits != 0};
+  }
+  [[nodiscard]] std::uint32_t instance_of(std::uint32_t codeword) const noexcept {
+    return codewords().instance_of(codeword);
+  }
+  [[nodiscard]] Point center_of(std::uint32_t codeword) const noexcept { return codewords().center_of(codeword); }
+  /// 0 is the layout, then come the classes and the instances.
+  [[nodiscard]] const char* text(std::uint32_t number) const noexcept {
+    const char* place = reinterpret_cast<const char*>(bytes_ + header_.layout().text);
+    while (number > 0) number -= *place++ == 0 ? 1u : 0u;
+    return place;
+  }
+
+ private:
+  [[nodiscard]] bool read(const std::uint8_t* bytes, std::size_t size_bytes) noexcept {
+    if (size_bytes < FlashLayout::header + checksum_bytes || number32(bytes + 12) != size_bytes) return false;
+    bytes_ = bytes;
+    header_.size_bytes = number32(bytes + 12);
+    header_.storage = number64(bytes + 16);
+    header_.options = {math::float_of(number32(bytes + 24)), number32(bytes + 28), number32(bytes + 32)};
+    header_.row_bytes = number32(bytes + 36) & 0xFFFFFFu;
+    header_.number_bits = bytes[39];
+    header_.codewords = number32(bytes + 40);
+    header_.instances = number32(bytes + 44);
+    header_.classes = number32(bytes + 48);
+    header_.text_bytes = number32(bytes + 52);
+    header_.unit = math::float_of(number32(bytes + 56));
+    if (header_.row_bytes == 0 || header_.row_bytes > 66051 || header_.number_bits > 8) return false;
+    const std::uint64_t checked = header_.layout().checksum;
+    if (checked + checksum_bytes != size_bytes) return false;
+    return checksum(bytes, static_cast<std::size_t>(checked)) == number64(bytes + checked);
+  }
+
+  /// A checksum may be right by chance, or by design: nothing that is read later may be wrong.
+  [[nodiscard]] bool is_sound() const noexcept {
+    const FlashHeader& h = header_;
+    bool sound = validate(h.options) == Status::ok && h.codewords > 0 && h.instances <= 65536 && h.classes <= 65536 &&
+                 h.unit >= 1e-30f && h.unit <= 1e30f;
+    for (std::uint32_t i = 0; sound && i < h.instances; ++i) sound = class_of(i) < h.classes;
+    const CodewordRun run = codewords();
+    for (std::uint32_t i = 0; sound && i < run.count; ++i) sound = run.instance_of(i) < h.instances;
+    const std::uint32_t numbers = number_count();
+    for (std::uint32_t i = 0; sound && i < numbers; ++i) sound = place_of(i) < numbers;
+    const std::uint8_t* const text_begin = bytes_ + h.layout().text;
+    std::uint32_t texts = 0;
+    for (std::uint32_t i = 0; i < h.text_bytes; ++i) texts += text_begin[i] == 0 ? 1u : 0u;
+    return sound && texts == 1 + h.classes + h.instances && text_begin[h.text_bytes - 1] == 0;
+  }
+
+  const std::uint8_t* bytes_ = nullptr;
+  FlashHeader header_;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_FLASH_MODEL_HPP
+
+// shortshot/recognition/model_view.hpp: what a MicroRecognizer knows: a model that is read where it lies, and what was
+// learned since.
+#ifndef SHORTSHOT_RECOGNITION_MODEL_VIEW_HPP
+#define SHORTSHOT_RECOGNITION_MODEL_VIEW_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// A model of one object, and what it and its class are numbered among all.
+struct LearnedModel {
+  CodewordRun codewords;
+  const char* class_name = nullptr;
+  const char* instance_name = nullptr;
+  std::uint32_t object_class = 0;
+  std::uint32_t instance = 0;
+};
+
+[[nodiscard]] inline bool same_text(const char* a, const char* b) noexcept {
+  while (*a != 0 && *a == *b) ++a, ++b;
+  return *a == *b;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// A recognizer's model of descriptors in a storage (CodedDescriptor, BinaryDescriptor or SumBits), in memory that is
+/// only read and must outlive the view. Nothing is copied, nothing allocated; reentrant.
+///
+///     ModelView<NibbleDescriptor<ShapeColor95>> model;
+///     if (model.open(cups_model, sizeof cups_model) != Status::ok) ...
+///     model.instance_name(3);
+///
+/// One with what was learned on the spot comes from LearnedObjects::model().
+template <class Stored>
+class ModelView {
+ public:
+  constexpr ModelView() noexcept = default;
+  /// Without a codeword: what all is learned on the spot begins with. Options as validate() has them.
+  explicit constexpr ModelView(const RecognizerOptions& options) noexcept : model_(options) {}
+
+  /// What save_for_flash() has written. Takes a look at each byte (some 10 instructions each on a Cortex-M), whatever
+  /// they say. Statuses, the first one that applies: not_a_model, other_version, damaged_model, other_descriptor. A
+  /// model that was open before stays so.
+  [[nodiscard]] Status open(const std::uint8_t* bytes, std::size_t size_bytes) noexcept {
+    detail::FlashModel opened;
+    const Status status = opened.open(bytes, size_bytes);
+    if (status != Status::ok) return status;
+    if (!is_of_storage(opened)) return Status::other_descriptor;
+    *this = ModelView(opened);
+    return Status::ok;
+  }
+
+  /// As it was trained; all zeros, and no codewords, before a model is open.
+  [[nodiscard]] const RecognizerOptions& options() const noexcept { return model_.options(); }
+  [[nodiscard]] std::uint32_t codeword_count() const noexcept { return codewords_; }
+  [[nodiscard]] std::uint32_t instance_count() const noexcept { return instances_; }
+  [[nodiscard]] std::uint32_t class_count() const noexcept { return classes_; }
+  /// For numbers below the counts. Names are looked for from the first one on.
+  [[nodiscard]] std::uint32_t class_of(std::uint32_t instance) const noexcept {
+    if (instance < model_.instance_count()) return model_.class_of(instance);
+    return first_learned([&](const detail::LearnedModel& m) { return m.instance == instance; }).object_class;
+  }
+  [[nodiscard]] const char* class_name(std::uint32_t object_class) const noexcept {
+    if (object_class < model_.class_count()) return model_.class_name(object_class);
+    return first_learned([&](const detail::LearnedModel& m) { return m.object_class == object_class; }).class_name;
+  }
+  [[nodiscard]] const char* instance_name(std::uint32_t instance) const noexcept {
+    if (instance < model_.instance_count()) return model_.instance_name(instance);
+    return first_learned([&](const detail::LearnedModel& m) { return m.instance == instance; }).instance_name;
+  }
+  [[nodiscard]] std::uint32_t instance_of(std::uint32_t codeword) const noexcept {
+    const Place place = place_of_codeword(codeword);
+    return place.learned == nullptr ? place.run.instance_of(place.codeword) : place.learned->instance;
+  }
+  /// The object's center in the frame of the codeword's key point.
+  [[nodiscard]] Point center_of(std::uint32_t codeword) const noexcept {
+    const Place place = place_of_codeword(codeword);
+    return place.run.center_of(place.codeword);
+  }
+  /// As it was trained.
+  [[nodiscard]] Stored descriptor(std::uint32_t codeword) const noexcept {
+    static_assert(alignof(Stored) == 1, "ModelView<Stored> supports storages of bytes");
+    const Place place = place_of_codeword(codeword);
+    const auto& row = *reinterpret_cast<const Stored*>(place.run.row(place.codeword));
+    if (!place.run.is_arranged) return row;
+    Stored out{};
+    for (std::uint32_t i = 0; i < number_count(); ++i)
+      detail::put_number<number_bits>(out.bytes, place_of(i), detail::number_at<number_bits>(row.bytes, i));
+    return out;
+  }
+
+  /// The order of the trained model's codes or bits: how many there are, and which one of the descriptor number i is.
+  /// None: that of the descriptor.
+  [[nodiscard]] std::uint32_t number_count() const noexcept { return model_.number_count(); }
+  [[nodiscard]] std::uint32_t place_of(std::uint32_t i) const noexcept { return model_.place_of(i); }
+  /// A descriptor with its codes or bits in that order, in which those come first that tell most codewords apart.
+  [[nodiscard]] Stored arranged(const Stored& stored) const noexcept {
+    if (number_count() == 0) return stored;
+    Stored out{};
+    detail::arrange<number_bits>(stored.bytes, out.bytes, sizeof out.bytes,
+                                 [&](std::size_t i) { return place_of(static_cast<std::uint32_t>(i)); });
+    return out;
+  }
+
+  /// use(first, run) for codewords that lie one behind the other, in ascending order: the number of the first one.
+  template <class Use>
+  void for_each_run(const Use& use) const noexcept {
+    std::uint32_t first = 0;
+    for (std::uint32_t part = 0; part <= learned_count_; ++part) {
+      const detail::CodewordRun run = run_of(part);
+      use(first, run);
+      first += run.count;
+    }
+  }
+
+ private:
+  template <class S, class Memory, std::size_t MaxObjects>
+  friend class LearnedObjects;
+
+  static constexpr int number_bits = detail::Storage<Stored>::number_bits;
+
+  struct Place {
+    detail::CodewordRun run;
+    std::uint32_t codeword;  // of the run
+    const detail::LearnedModel* learned;
+  };
+
+  explicit ModelView(const detail::FlashModel& model) noexcept
+      : model_(model),
+        codewords_(model.codeword_count()),
+        instances_(model.instance_count()),
+        classes_(model.class_count()) {}
+
+  [[nodiscard]] static bool is_of_storage(const detail::FlashModel& model) noexcept {
+    return model.storage() == detail::storage_number<Stored> && model.row_bytes() == sizeof(Stored) &&
+           (model.number_bits() == 0 || model.number_bits() == std::uint32_t{number_bits});
+  }
+
+  /// The model's own codewords, or those of what was learned.
+  [[nodiscard]] detail::CodewordRun run_of(std::uint32_t part) const noexcept {
+    return part == 0 ? model_.codewords() : learned_[part - 1].codewords;
+  }
+  [[nodiscard]] Place place_of_codeword(std::uint32_t codeword) const noexcept {
+    std::uint32_t part = 0;
+    detail::CodewordRun run = run_of(0);
+    for (; codeword >= run.count; run = run_of(++part)) codeword -= run.count;
+    return {run, codeword, part == 0 ? nullptr : learned_ + part - 1};
+  }
+  template <class Condition>
+  [[nodiscard]] const detail::LearnedModel& first_learned(const Condition& is_it) const noexcept {
+    const detail::LearnedModel* learned = learned_;
+    while (!is_it(*learned)) ++learned;
+    return *learned;
+  }
+
+  /// Makes the next of the learned models one of this view's: numbers it, and what is new about it.
+  void append(detail::LearnedModel& next) noexcept {
+    next.object_class = 0;
+    while (next.object_class < classes_ && !detail::same_text(class_name(next.object_class), next.class_name))
+      ++next.object_class;
+    const auto is_it = [&](std::uint32_t i) {
+      return class_of(i) == next.object_class && detail::same_text(instance_name(i), next.instance_name);
+    };
+    next.instance = 0;
+    while (next.instance < instances_ && !is_it(next.instance)) ++next.instance;
+    if (next.object_class == classes_) ++classes_;
+    if (next.instance == instances_) ++instances_;
+    codewords_ += next.codewords.count;
+    ++learned_count_;
+  }
+
+  detail::FlashModel model_;
+  const detail::LearnedModel* learned_ = nullptr;
+  std::uint32_t learned_count_ = 0;
+  std::uint32_t codewords_ = 0;
+  std::uint32_t instances_ = 0;
+  std::uint32_t classes_ = 0;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_RECOGNITION_MODEL_VIEW_HPP
+
+// shortshot/recognition/unit_writer.hpp: bytes into memory that is programmed in whole units, each of them once, and
+// can be read at any time: flash, or RAM.
+#ifndef SHORTSHOT_RECOGNITION_UNIT_WRITER_HPP
+#define SHORTSHOT_RECOGNITION_UNIT_WRITER_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+inline constexpr std::uint8_t erased_byte = 0xFF;
+
+/// A unit is programmed when it is full. One of nothing but erased bytes stays as it is: so whatever comes behind the
+/// last byte that is not erased can still be programmed, also after the power went.
+template <class Memory>
+class UnitWriter {
+ public:
+  static constexpr std::size_t unit_bytes = Memory::unit_bytes;
+
+  constexpr UnitWriter() noexcept = default;
+  /// From `begin` on, where a unit begins.
+  UnitWriter(Memory& memory, std::size_t begin) noexcept : memory_(&memory), at_(begin) {}
+
+  /// False from the first unit on that the memory did not take.
+  [[nodiscard]] bool good() const noexcept { return !has_failed_; }
+  [[nodiscard]] std::size_t at() const noexcept { return at_; }
+
+  template <class Unsigned>
+  void number(Unsigned value) noexcept {
+    append(value, sizeof value);
+  }
+  void bytes(const std::uint8_t* from, std::size_t count) noexcept {
+    for (std::size_t k = 0; k < count; ++k) append(from[k], 1);
+  }
+  /// With the 0 behind it.
+  void text(const char* from) noexcept {
+    do append(static_cast<std::uint8_t>(*from), 1);
+    while (*from++ != 0);
+  }
+  /// The same byte up to a place.
+  void pad(std::size_t place, std::uint8_t byte) noexcept {
+    while (at_ < place) append(byte, 1);
+  }
+
+  /// Of all bytes since `begin`, where a unit begins: those of the last unit may not have been programmed.
+  [[nodiscard]] std::uint64_t checksum_since(std::size_t begin) const noexcept {
+    const std::size_t pending = at_ % unit_bytes;
+    return checksum(unit_, pending, checksum(memory_->bytes() + begin, at_ - pending - begin));
+  }
+
+ private:
+  [[gnu::noinline]] void append(std::uint64_t value, std::size_t count) noexcept {
+    for (std::size_t k = 0; k < count; ++k, value >>= 8) {
+      unit_[at_ % unit_bytes] = static_cast<std::uint8_t>(value & 0xFFu);
+      if (++at_ % unit_bytes == 0) has_failed_ = has_failed_ || !program(at_ - unit_bytes);
+    }
+  }
+
+  [[nodiscard]] bool program(std::size_t place) noexcept {
+    bool is_erased = true;
+    for (const std::uint8_t byte : unit_) is_erased = is_erased && byte == erased_byte;
+    if (!is_erased && !memory_->write(place, unit_)) return false;
+    const std::uint8_t* const written = memory_->bytes() + place;
+    for (std::size_t k = 0; k < unit_bytes; ++k) {
+      if (written[k] != unit_[k]) return false;
+    }
+    return true;
+  }
+
+  Memory* memory_ = nullptr;
+  std::size_t at_ = 0;
+  std::uint8_t unit_[unit_bytes] = {};
+  bool has_failed_ = false;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+#endif  // SHORTSHOT_RECOGNITION_UNIT_WRITER_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// Memory for LearnedObjects in RAM: what is learned lasts as long as it does. All zeros is not erased: erase() it.
+template <std::size_t Size>
+class RamMemory {
+ public:
+  static constexpr std::size_t unit_bytes = 1;
+
+  void erase() noexcept { std::memset(bytes_, detail::erased_byte, Size); }
+  [[nodiscard]] const std::uint8_t* bytes() const noexcept { return bytes_; }
+  [[nodiscard]] std::size_t size_bytes() const noexcept { return Size; }
+  bool write(std::size_t place, const std::uint8_t* unit) noexcept {
+    bytes_[place] = *unit;
+    return true;
+  }
+
+ private:
+  std::uint8_t bytes_[Size] = {};
+};
+
+/// Learns objects on a microcontroller. An object is there after commit(), also if the power goes at any time later,
+/// and not before it: if the power goes before, or in commit(), open() finds what was there until then.
+///
+///     static LearnedObjects<Stored, MyFlash> learned;
+///     learned.open(model, flash);
+///     for (each key point) if (recognizer.describe(cloud, search, key point, 0.04f, key) == Status::ok)
+///       learned.add(key, center);
+///     learned.commit("mug", "my mug");
+///     recognizer.start(learned.model());
+///
+/// `Stored`      what the model is of
+/// `Memory`      what is written to. A type with `static constexpr std::size_t unit_bytes`, what is programmed at a
+///               time: a power of two, up to 64; `const std::uint8_t* bytes()`, all of it, and `std::size_t
+///               size_bytes()`; and `bool write(std::size_t place, const std::uint8_t* unit)`, which programs a unit,
+///               false if it cannot. Bytes are 0xFF where they were erased. No unit is programmed twice; what was
+///               programmed must be seen in bytes() at once. As RamMemory is
+/// `MaxObjects`  calls of commit() in all, since the memory was erased; 32 bytes each, and on hosts 48
+///
+/// In the memory, a commit() takes 72 bytes, and the names; a codeword its descriptor and 8 bytes. What was torn takes
+/// its place until all is erased, which the caller does, before open(). No allocation; one thread.
+template <class Stored, class Memory, std::size_t MaxObjects = 16>
+class LearnedObjects {
+  static constexpr std::size_t unit_bytes = Memory::unit_bytes;
+  static constexpr std::size_t header_bytes = detail::FlashLayout(sizeof(Stored), 0, 0, 1, 0).codewords;
+  static_assert(unit_bytes >= 1 && (unit_bytes & (unit_bytes - 1)) == 0 && header_bytes % unit_bytes == 0,
+                "LearnedObjects<Stored, Memory> supports memory that is programmed in units of 1, 2, 4, ..., 64 bytes");
+  static_assert(MaxObjects >= 1 && MaxObjects <= 65536,
+                "LearnedObjects<Stored, Memory, MaxObjects> supports 1 to 65536");
+
+ public:
+  /// All zeros: static ones take no flash and no code.
+  constexpr LearnedObjects() noexcept = default;
+  LearnedObjects(const LearnedObjects&) = delete;
+  LearnedObjects& operator=(const LearnedObjects&) = delete;
+
+  /// Finds what was learned. `trained` is what it is learned in addition to (its bytes must stay), or a ModelView of
+  /// nothing but options; another one than last time is another numbering, no more. What is not whole is passed over.
+  /// Takes a look at each byte. Ends the life of views that model() gave.
+  ///
+  /// Statuses: bad_option (of the options), bad_view (no memory, or 2^32 bytes or more), other_descriptor (there are
+  /// learned objects of another one), out_of_memory (there are more than MaxObjects). Nothing can be added then.
+  [[nodiscard]] Status open(const ModelView<Stored>& trained, Memory& memory) noexcept {
+    memory_ = nullptr;
+    model_ = ModelView<Stored>(trained.model_);
+    model_.learned_ = learned_;
+    if (validate(trained.options()) != Status::ok) return Status::bad_option;
+    const std::uint64_t size_bytes = memory.size_bytes() / unit_bytes * unit_bytes;
+    if (memory.bytes() == nullptr || size_bytes > 0xFFFFFFFFu) return Status::bad_view;
+    std::size_t end = 0;
+    for (std::size_t at = 0; at < size_bytes;) {
+      detail::FlashModel found;
+      Status status = open_at(memory, at, found);
+      if (status == Status::ok) status = append(found);
+      if (status == Status::other_descriptor || status == Status::out_of_memory) return status;
+      at += status == Status::ok ? whole_units(found.size_bytes()) : unit_bytes;
+      if (status == Status::ok) end = at;
+    }
+    memory_ = &memory;
+    begin_behind(end);
+    return Status::ok;
+  }
+
+  /// A key point of the object that is being learned. `center`: the same place of the object in each of its views, in
+  /// the coordinates of the view.
+  ///
+  /// Statuses, the first one that applies: not_trained (nothing is open), invalid_keypoint (it or the center is not
+  /// finite, or they lie more than some 64 bandwidths apart), bad_frame, out_of_memory, not_written: then all of this
+  /// object is lost. Of the others the key point alone.
+  [[nodiscard]] Status add(const StoredKeyPoint<Stored>& key, const Point& center) noexcept {
+    if (memory_ == nullptr) return Status::not_trained;
+    if (!is_finite(key.position) || !is_finite(center)) return Status::invalid_keypoint;
+    if (validate(key.frame) != Status::ok) return Status::bad_frame;
+    const Point local = detail::to_local(center, key.position, key.frame);
+    const float reach = 32767.0f * unit();
+    for (const float c : {local.x, local.y, local.z}) {
+      if (!(c >= -reach && c <= reach)) return Status::invalid_keypoint;
+    }
+    if (!fits(writer_.at() + detail::FlashLayout::before_row + sizeof(Stored))) return Status::out_of_memory;
+    ++codewords_;
+    detail::write_codeword(writer_, 0, local, unit());
+    writer_.bytes(key.descriptor.bytes, sizeof(Stored));
+    if (writer_.good()) return Status::ok;
+    discard();
+    return Status::not_written;
+  }
+
+  /// Makes a known object of the key points since the last one, or another view of an object that is known by these
+  /// names. It is in model() then.
+  ///
+  /// Statuses: not_trained (no key point was added), bad_option (a null pointer), out_of_memory (more than MaxObjects,
+  /// or the names do not fit): nothing is lost then. not_written: the object is.
+  [[nodiscard]] Status commit(const char* object_class, const char* instance) noexcept {
+    if (codewords_ == 0) return Status::not_trained;
+    if (object_class == nullptr || instance == nullptr) return Status::bad_option;
+    const std::uint64_t text_bytes = std::uint64_t{1} + text_size(object_class) + text_size(instance);
+    if (model_.learned_count_ == MaxObjects || !fits(text_bytes)) return Status::out_of_memory;
+    detail::FlashHeader header{0,
+                               detail::storage_number<Stored>,
+                               model_.options(),
+                               sizeof(Stored),
+                               0,  // the descriptor's order: what is learned does not depend on what was trained
+                               codewords_,
+                               1,
+                               1,
+                               static_cast<std::uint32_t>(text_bytes),
+                               unit()};
+    const auto checked_bytes = static_cast<std::size_t>(header.layout().checksum);
+    header.size_bytes = static_cast<std::uint32_t>(checked_bytes + detail::checksum_bytes);
+    if (!fits(std::uint64_t{begin_} + header.size_bytes)) return Status::out_of_memory;
+    write_names(object_class, instance);
+    writer_.pad(begin_ + checked_bytes, 0);
+    write_header(header);
+    writer_.number(writer_.checksum_since(begin_));
+    writer_.pad(whole_units(writer_.at()), detail::erased_byte);
+    return finish();
+  }
+
+  /// Forgets the key points since the last commit().
+  void discard() noexcept {
+    if (memory_ != nullptr) begin_behind(begin_);
+  }
+
+  /// What was trained and what was learned until now: for start(), after each commit() anew.
+  [[nodiscard]] const ModelView<Stored>& model() const noexcept { return model_; }
+
+  /// What is left for more, including an object that is being learned.
+  [[nodiscard]] std::size_t bytes_left() const noexcept { return memory_ == nullptr ? 0 : size_bytes() - begin_; }
+
+ private:
+  [[nodiscard]] static constexpr std::size_t whole_units(std::size_t bytes) noexcept {
+    return (bytes + unit_bytes - 1) / unit_bytes * unit_bytes;
+  }
+  /// With the 0 behind it; more than the memory has if it does not fit. (Without a bound it were a call of strlen.)
+  [[nodiscard]] std::size_t text_size(const char* text) const noexcept {
+    std::size_t size = 1;
+    while (size <= size_bytes() && text[size - 1] != 0) ++size;
+    return size;
+  }
+  [[nodiscard]] std::size_t size_bytes() const noexcept { return memory_->size_bytes() / unit_bytes * unit_bytes; }
+  [[nodiscard]] bool fits(std::uint64_t end) const noexcept { return end <= size_bytes(); }
+
+  /// Of centers: the power of two below a 256th of the bandwidth, so that 16 bits reach 64 bandwidths.
+  [[nodiscard]] float unit() const noexcept {
+    constexpr std::uint32_t exponent = 0x7F800000u;
+    return detail::math::float_of(detail::math::bits_of(model_.options().bandwidth) & exponent) / 256.0f;
+  }
+
+  /// A whole model of one object of this storage, if one begins there.
+  [[nodiscard]] static Status open_at(const Memory& memory, std::size_t begin, detail::FlashModel& out) noexcept {
+    const std::uint8_t* const bytes = memory.bytes() + begin;
+    const std::size_t left = memory.size_bytes() - begin;
+    const std::size_t size = left < header_bytes ? left : detail::number32(bytes + 12);
+    if (size > left) return Status::damaged_model;
+    const Status status = out.open(bytes, size);
+    if (status != Status::ok) return status;
+    if (!ModelView<Stored>::is_of_storage(out)) return Status::other_descriptor;
+    const bool is_one_object = out.class_count() == 1 && out.instance_count() == 1 && out.number_bits() == 0;
+    return is_one_object ? Status::ok : Status::damaged_model;
+  }
+  [[nodiscard]] Status append(const detail::FlashModel& found) noexcept {
+    if (model_.learned_count_ == MaxObjects) return Status::out_of_memory;
+    detail::LearnedModel& next = learned_[model_.learned_count_];
+    next = {found.codewords(), found.class_name(0), found.instance_name(0), 0, 0};
+    model_.append(next);
+    return Status::ok;
+  }
+
+  /// The next one begins behind all that was ever written, and not before `least`.
+  void begin_behind(std::size_t least) noexcept {
+    std::size_t end = size_bytes();
+    while (end > least && memory_->bytes()[end - 1] == detail::erased_byte) --end;
+    begin_ = whole_units(end);
+    writer_ = {*memory_, begin_ + header_bytes};
+    codewords_ = 0;
+  }
+
+  void write_names(const char* object_class, const char* instance) noexcept {
+    writer_.number(std::uint8_t{0});  // no layout: its number is in the header
+    writer_.text(object_class);
+    writer_.text(instance);
+  }
+  void write_header(const detail::FlashHeader& header) noexcept {
+    detail::UnitWriter<Memory> to(*memory_, begin_);
+    to.bytes(reinterpret_cast<const std::uint8_t*>(detail::flash_model_magic), 8);
+    to.number(detail::flash_model_version);
+    detail::write(to, header);
+    to.pad(begin_ + header_bytes, 0);  // the class of the instance, too
+  }
+
+  [[nodiscard]] Status finish() noexcept {
+    detail::FlashModel made;
+    const bool is_made = writer_.good() && open_at(*memory_, begin_, made) == Status::ok;
+    if (is_made) static_cast<void>(append(made));
+    begin_behind(is_made ? writer_.at() : begin_);
+    return is_made ? Status::ok : Status::not_written;
+  }
+
+  Memory* memory_ = nullptr;
+  ModelView<Stored> model_;
+  detail::LearnedModel learned_[MaxObjects] = {};
+  std::size_t begin_ = 0;  // of the object that is being learned, which is none yet
+  std::uint32_t codewords_ = 0;
+  detail::UnitWriter<Memory> writer_;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_RECOGNITION_LEARNED_OBJECTS_HPP
+
+// shortshot/recognition/micro_recognizer.hpp: recognition without a heap: a view's key points one after the other,
+// against a model in flash.
+#ifndef SHORTSHOT_RECOGNITION_MICRO_RECOGNIZER_HPP
+#define SHORTSHOT_RECOGNITION_MICRO_RECOGNIZER_HPP
+
 // shortshot/recognition/climb.hpp: from a vote to a maximum of the density of votes.
 //
 // After D. Comaniciu, P. Meer: Mean shift: A robust approach toward feature space analysis (PAMI 24, 2002), with a
@@ -9583,336 +10404,6 @@ template <class Reachable>
 }  // namespace shortshot::detail
 #endif  // SHORTSHOT_RECOGNITION_CLIMB_HPP
 
-// shortshot/recognition/flash_model.hpp: a trained recognizer as bytes that are read where they lie, in flash:
-// save_for_flash() writes them.
-//
-// All numbers are little-endian, floats by their bits:
-//
-//      0  8 characters "SSHOTFLA", 4 bytes format version, 4 bytes size of all, a multiple of 4
-//     16  8 bytes storage_number of what is stored
-//     24  options: 4 bytes each bandwidth, neighbors, most
-//     36  4 bytes each: bytes of a row, codewords, instances, classes, bytes of text
-//     56  4 bytes, as a float: the unit of centers in meters, a power of two
-//     60  4 bytes bits of a number of a row
-//     64  for each instance 2 bytes class; 2 bytes 0 if that is no multiple of 4
-//         for each codeword 2 bytes instance, 3 times 2 bytes center in the key point's frame, signed
-//         for each number of a row 2 bytes: which one of the descriptor it is; 2 bytes 0 if that is no multiple of 4
-//         rows of codes or bits, one per codeword, without gaps
-//         text, a 0 behind each: storage_layout, names of classes, names of instances
-//         up to three bytes 0
-//         8 bytes checksum (64-bit FNV-1a) of all bytes before it
-#ifndef SHORTSHOT_RECOGNITION_FLASH_MODEL_HPP
-#define SHORTSHOT_RECOGNITION_FLASH_MODEL_HPP
-
-// shortshot/store/checksum.hpp: by which damage is noticed: 64-bit FNV-1a.
-//
-// FNV-1a is three lines, and each of its steps is a bijection: no single wrong byte goes unnoticed, and other damage
-// does once in 2^64 times. It is no protection from who means harm; nobody believes a number because of it.
-#ifndef SHORTSHOT_STORE_CHECKSUM_HPP
-#define SHORTSHOT_STORE_CHECKSUM_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-inline constexpr std::size_t checksum_bytes = 8;
-
-[[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size) noexcept {
-  std::uint64_t hash = fnv1a_of_nothing;
-  for (std::size_t i = 0; i < size; ++i) hash = fnv1a(hash, bytes[i]);
-  return hash;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_STORE_CHECKSUM_HPP
-
-// shortshot/recognition/hypothesis.hpp: what recognizers are told, and what they say.
-#ifndef SHORTSHOT_RECOGNITION_HYPOTHESIS_HPP
-#define SHORTSHOT_RECOGNITION_HYPOTHESIS_HPP
-
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-struct RecognizerOptions {
-  float bandwidth = 0.03f;      ///< h of the density of votes, 1e-6 to 1e6 meters: about how far votes miss the center
-  std::uint32_t neighbors = 1;  ///< nearest codewords that each descriptor activates, 1 to 1024
-  std::uint32_t most = 8;       ///< hypotheses at the most, from 1 on
-};
-
-/// An object that may be there; see Recognizer::class_name() and instance_name() for the numbers. Trivial type.
-struct Hypothesis {
-  std::uint32_t object_class;
-  std::uint32_t instance;
-  Point center;  ///< where that of the training views is in this view
-  float score;   ///< density of the class' votes there: 1 for each that hits it, exp(-d^2 / (2 h^2)) if d meters off
-};
-
-}  // namespace SHORTSHOT_TYPES
-}  // namespace shortshot
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// ok or bad_option.
-[[nodiscard]] inline Status validate(const RecognizerOptions& options) noexcept {
-  const bool usable = options.bandwidth >= 1e-6f && options.bandwidth <= 1e6f && options.neighbors >= 1 &&
-                      options.neighbors <= 1024 && options.most >= 1;
-  return usable ? Status::ok : Status::bad_option;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-/// Does one of these say the same: the class, within the bandwidth of the place?
-[[nodiscard]] inline bool is_known(const Hypothesis* known, std::size_t count, std::uint32_t object_class,
-                                   const Point& at, float bandwidth) noexcept {
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool same_class = known[i].object_class == object_class;
-    if (same_class && squared_distance(known[i].center, at) <= unfused(bandwidth * bandwidth)) return true;
-  }
-  return false;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-#endif  // SHORTSHOT_RECOGNITION_HYPOTHESIS_HPP
-
-namespace shortshot::detail {
-inline namespace SHORTSHOT_CODE {
-
-inline constexpr char flash_model_magic[] = "SSHOTFLA";
-inline constexpr std::uint32_t flash_model_version = 1;
-
-[[nodiscard]] inline std::uint32_t number16(const std::uint8_t* bytes) noexcept {
-  return static_cast<std::uint32_t>(bytes[0]) | static_cast<std::uint32_t>(bytes[1]) << 8;
-}
-[[nodiscard]] inline std::uint32_t number32(const std::uint8_t* bytes) noexcept {
-  return number16(bytes) | number16(bytes + 2) << 16;
-}
-[[nodiscard]] inline std::uint64_t number64(const std::uint8_t* bytes) noexcept {
-  return number32(bytes) | static_cast<std::uint64_t>(number32(bytes + 4)) << 32;
-}
-
-/// Where the parts of a model begin, by how many there are of each. Numbers of 64 bits: sums of products of what may be
-/// damaged fit.
-struct FlashLayout {
-  static constexpr std::uint64_t header = 64;
-  static constexpr std::uint64_t codeword = 8;
-
-  std::uint64_t codewords;
-  std::uint64_t order;
-  std::uint64_t rows;
-  std::uint64_t text;
-  std::uint64_t checksum;
-
-  [[nodiscard]] static constexpr std::uint64_t whole(std::uint64_t bytes) noexcept { return (bytes + 3) / 4 * 4; }
-
-  constexpr FlashLayout(std::uint32_t row_bytes, std::uint32_t number_count, std::uint32_t codeword_count,
-                        std::uint32_t instance_count, std::uint32_t text_bytes) noexcept
-      : codewords(header + whole(2 * std::uint64_t{instance_count})),
-        order(codewords + codeword * codeword_count),
-        rows(order + whole(2 * std::uint64_t{number_count})),
-        text(rows + std::uint64_t{row_bytes} * codeword_count),
-        checksum(whole(text + text_bytes)) {}
-};
-
-/// A model of any storage. Validated once, in open(): a look at each byte, and at each codeword, instance and name.
-class FlashModel {
- public:
-  /// Statuses: not_a_model, other_version, damaged_model. What was open before stays so if it is not ok.
-  [[nodiscard]] Status open(const std::uint8_t* bytes, std::size_t size_bytes) noexcept {
-    if (bytes == nullptr || size_bytes < 8) return Status::not_a_model;
-    for (std::size_t i = 0; i < 8; ++i) {
-      if (bytes[i] != static_cast<std::uint8_t>(flash_model_magic[i])) return Status::not_a_model;
-    }
-    if (size_bytes < 12) return Status::damaged_model;
-    if (number32(bytes + 8) != flash_model_version) return Status::other_version;
-    FlashModel model;
-    if (!model.read_header(bytes, size_bytes) || !model.is_sound()) return Status::damaged_model;
-    *this = model;
-    return Status::ok;
-  }
-
-  [[nodiscard]] std::uint64_t storage() const noexcept { return storage_; }
-  [[nodiscard]] const RecognizerOptions& options() const noexcept { return options_; }
-  [[nodiscard]] std::uint32_t row_bytes() const noexcept { return row_bytes_; }
-  [[nodiscard]] std::uint32_t codeword_count() const noexcept { return codewords_; }
-  [[nodiscard]] std::uint32_t instance_count() const noexcept { return instances_; }
-  [[nodiscard]] std::uint32_t class_count() const noexcept { return classes_; }
-  [[nodiscard]] std::uint32_t class_of(std::uint32_t instance) const noexcept {
-    return number16(bytes_ + FlashLayout::header + 2 * std::size_t{instance});
-  }
-  [[nodiscard]] std::uint32_t instance_of(std::uint32_t codeword) const noexcept { return number16(at(codeword)); }
-  [[nodiscard]] Point center_of(std::uint32_t codeword) const noexcept {
-    const auto coordinate = [&](std::uint32_t offset) {
-      return static_cast<float>(static_cast<std::int16_t>(number16(at(codeword) + offset))) * unit_;
-    };
-    return {coordinate(2), coordinate(4), coordinate(6)};
-  }
-  [[nodiscard]] std::uint32_t number_bits() const noexcept { return number_bits_; }
-  [[nodiscard]] std::uint32_t number_count() const noexcept { return numbers_; }
-  /// Which number of a descriptor is number i of a row: those come first that tell most codewords apart.
-  [[nodiscard]] std::uint32_t place_of(std::uint32_t i) const noexcept {
-    return number16(bytes_ + order_ + 2 * std::size_t{i});
-  }
-  [[nodiscard]] const std::uint8_t* row(std::uint32_t codeword) const noexcept {
-    return bytes_ + rows_ + std::size_t{row_bytes_} * codeword;
-  }
-  /// 0 is the layout, then come the classes and the instances.
-  [[nodiscard]] const char* text(std::uint32_t number) const noexcept {
-    const char* place = reinterpret_cast<const char*>(bytes_ + text_);
-    while (number > 0) number -= *place++ == 0 ? 1u : 0u;
-    return place;
-  }
-
- private:
-  [[nodiscard]] const std::uint8_t* at(std::uint32_t codeword) const noexcept {
-    return bytes_ + codewords_begin_ + FlashLayout::codeword * codeword;
-  }
-
-  [[nodiscard]] bool read_header(const std::uint8_t* bytes, std::size_t size_bytes) noexcept {
-    if (size_bytes < FlashLayout::header + checksum_bytes || number32(bytes + 12) != size_bytes) return false;
-    bytes_ = bytes;
-    storage_ = number64(bytes + 16);
-    options_ = {math::float_of(number32(bytes + 24)), number32(bytes + 28), number32(bytes + 32)};
-    row_bytes_ = number32(bytes + 36);
-    codewords_ = number32(bytes + 40);
-    instances_ = number32(bytes + 44);
-    classes_ = number32(bytes + 48);
-    text_bytes_ = number32(bytes + 52);
-    unit_ = math::float_of(number32(bytes + 56));
-    number_bits_ = number32(bytes + 60);
-    const bool has_numbers = row_bytes_ > 0 && row_bytes_ <= 66051 && number_bits_ >= 1 && number_bits_ <= 8;
-    if (!has_numbers) return false;
-    numbers_ = 8 * row_bytes_ / number_bits_;
-    const FlashLayout layout(row_bytes_, numbers_, codewords_, instances_, text_bytes_);
-    if (layout.checksum + checksum_bytes != size_bytes) return false;
-    codewords_begin_ = static_cast<std::size_t>(layout.codewords);
-    order_ = static_cast<std::size_t>(layout.order);
-    rows_ = static_cast<std::size_t>(layout.rows);
-    text_ = static_cast<std::size_t>(layout.text);
-    const auto checked = static_cast<std::size_t>(layout.checksum);
-    return checksum(bytes, checked) == number64(bytes + checked);
-  }
-
-  /// A checksum may be right by chance, or by design: nothing that is read later may be wrong.
-  [[nodiscard]] bool is_sound() const noexcept {
-    bool sound = validate(options_) == Status::ok && codewords_ > 0 && instances_ <= 65536 && classes_ <= 65536 &&
-                 unit_ >= 1e-30f && unit_ <= 1e30f;
-    for (std::uint32_t i = 0; sound && i < instances_; ++i) sound = class_of(i) < classes_;
-    for (std::uint32_t i = 0; sound && i < codewords_; ++i) sound = instance_of(i) < instances_;
-    for (std::uint32_t i = 0; sound && i < number_count(); ++i) sound = place_of(i) < number_count();
-    std::uint32_t texts = 0;
-    for (std::uint32_t i = 0; i < text_bytes_; ++i) texts += bytes_[text_ + i] == 0 ? 1u : 0u;
-    return sound && texts == 1 + classes_ + instances_ && bytes_[text_ + text_bytes_ - 1] == 0;
-  }
-
-  const std::uint8_t* bytes_ = nullptr;
-  std::uint64_t storage_ = 0;
-  RecognizerOptions options_{0.0f, 0, 0};
-  float unit_ = 0.0f;
-  std::uint32_t row_bytes_ = 0;
-  std::uint32_t number_bits_ = 0;
-  std::uint32_t numbers_ = 0;
-  std::uint32_t codewords_ = 0;
-  std::uint32_t instances_ = 0;
-  std::uint32_t classes_ = 0;
-  std::uint32_t text_bytes_ = 0;
-  std::size_t codewords_begin_ = 0;
-  std::size_t order_ = 0;
-  std::size_t rows_ = 0;
-  std::size_t text_ = 0;
-};
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot::detail
-
-namespace shortshot {
-inline namespace SHORTSHOT_CODE {
-
-/// A recognizer's model of descriptors in a storage (CodedDescriptor, BinaryDescriptor or SumBits), in memory that is
-/// only read and must outlive the view. Nothing is copied, nothing allocated; reentrant.
-///
-///     ModelView<NibbleDescriptor<ShapeColor95>> model;
-///     if (model.open(cups_model, sizeof cups_model) != Status::ok) ...
-///     model.instance_name(3);
-template <class Stored>
-class ModelView {
- public:
-  /// What save_for_flash() has written. Takes a look at each byte (some 10 instructions each on a Cortex-M), whatever
-  /// they say. Statuses, the first one that applies: not_a_model, other_version, damaged_model, other_descriptor. A
-  /// model that was open before stays so.
-  [[nodiscard]] Status open(const std::uint8_t* bytes, std::size_t size_bytes) noexcept {
-    detail::FlashModel opened;
-    const Status status = opened.open(bytes, size_bytes);
-    if (status != Status::ok) return status;
-    const bool alike = opened.storage() == detail::storage_number<Stored> && opened.row_bytes() == sizeof(Stored) &&
-                       opened.number_bits() == std::uint32_t{number_bits};
-    if (!alike) return Status::other_descriptor;
-    model_ = opened;
-    return Status::ok;
-  }
-
-  /// As it was trained; all zeros, and no codewords, before a model is open.
-  [[nodiscard]] const RecognizerOptions& options() const noexcept { return model_.options(); }
-  [[nodiscard]] std::uint32_t codeword_count() const noexcept { return model_.codeword_count(); }
-  [[nodiscard]] std::uint32_t instance_count() const noexcept { return model_.instance_count(); }
-  [[nodiscard]] std::uint32_t class_count() const noexcept { return model_.class_count(); }
-  /// For numbers below the counts. Names are looked for from the first one on.
-  [[nodiscard]] std::uint32_t class_of(std::uint32_t instance) const noexcept { return model_.class_of(instance); }
-  [[nodiscard]] const char* class_name(std::uint32_t object_class) const noexcept {
-    return model_.text(1 + object_class);
-  }
-  [[nodiscard]] const char* instance_name(std::uint32_t instance) const noexcept {
-    return model_.text(1 + class_count() + instance);
-  }
-  [[nodiscard]] std::uint32_t instance_of(std::uint32_t codeword) const noexcept {
-    return model_.instance_of(codeword);
-  }
-  /// The object's center in the frame of the codeword's key point.
-  [[nodiscard]] Point center_of(std::uint32_t codeword) const noexcept { return model_.center_of(codeword); }
-  /// As it was trained.
-  [[nodiscard]] Stored descriptor(std::uint32_t codeword) const noexcept {
-    Stored out{};
-    for (std::uint32_t i = 0; i < model_.number_count(); ++i) {
-      detail::put_number<number_bits>(out.bytes, model_.place_of(i),
-                                      detail::number_at<number_bits>(model_.row(codeword), i));
-    }
-    return out;
-  }
-
-  /// The order of the codes or bits in a row: how many there are, and which one of the descriptor number i is.
-  [[nodiscard]] std::uint32_t number_count() const noexcept { return model_.number_count(); }
-  [[nodiscard]] std::uint32_t place_of(std::uint32_t i) const noexcept { return model_.place_of(i); }
-
-  /// A codeword's descriptor with its codes or bits in the model's order, in which those come first that tell most
-  /// codewords apart, and another descriptor in that order: the distance is the same. No copy; all zeros before a model
-  /// is open.
-  [[nodiscard]] const Stored& arranged(std::uint32_t codeword) const noexcept {
-    static_assert(alignof(Stored) == 1, "ModelView<Stored> supports storages of bytes");
-    return reinterpret_cast<const Stored*>(model_.row(0))[codeword];
-  }
-  [[nodiscard]] Stored arranged(const Stored& stored) const noexcept {
-    Stored out{};
-    if (codeword_count() == 0) return out;
-    detail::arrange<number_bits>(stored.bytes, out.bytes, sizeof out.bytes,
-                                 [&](std::size_t i) { return model_.place_of(static_cast<std::uint32_t>(i)); });
-    return out;
-  }
-
- private:
-  static constexpr int number_bits = detail::Storage<Stored>::number_bits;
-
-  detail::FlashModel model_;
-};
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_RECOGNITION_FLASH_MODEL_HPP
-
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
@@ -9976,22 +10467,32 @@ class MicroRecognizer {
   template <class Search, class Place = KeyPoint, class... Own>
   [[nodiscard]] Status add(const CloudView& cloud, const Search& search, const Place& place, const Support& support,
                            const Own&... own) noexcept {
-    const Status status = ready();
-    if (status != Status::ok) return status;
-    Frame frame;
-    Point position;
-    const Status described = detail::describe_key<D>(
+    Status status = ready();
+    StoredKeyPoint<Stored> described;
+    if (status == Status::ok) status = describe(cloud, search, place, support, described, own...);
+    if (status == Status::ok) vote(described.descriptor, described.position, described.frame);
+    return status;
+  }
+
+  /// Describes alone, for LearnedObjects or another add(): with or without a model. Statuses: those of describe_at();
+  /// `out` is all zeros then.
+  template <class Search, class Place = KeyPoint, class... Own>
+  [[nodiscard]] Status describe(const CloudView& cloud, const Search& search, const Place& place,
+                                const Support& support, StoredKeyPoint<Stored>& out, const Own&... own) noexcept {
+    out = {};
+    const Status status = detail::describe_key<D>(
         cloud, search, place, support, workspace_, values_,
         [&](const auto& n, const auto& sources, const Point& at) {
-          position = at;
-          return detail::describe_gathered<D, default_chunk_size>(n, sources, at, support, frame, values_);
+          out.position = at;
+          return detail::describe_gathered<D, default_chunk_size>(n, sources, at, support, out.frame, values_);
         },
         own...);
-    if (described != Status::ok) return described;
-    Stored stored;
-    detail::Storage<Stored>::make(values_, stored);
-    vote(stored, position, frame);
-    return Status::ok;
+    if (status == Status::ok) {
+      detail::Storage<Stored>::make(values_, out.descriptor);
+    } else {
+      out = {};
+    }
+    return status;
   }
 
   /// The same for what was described elsewhere. Also invalid_keypoint and bad_frame.
@@ -10002,6 +10503,10 @@ class MicroRecognizer {
     if (status == Status::ok) vote(stored, position, frame);
     return status;
   }
+
+  /// Votes that were cast since start(). An object of the model has about this share of them as its score that it is
+  /// seen in; where no hypothesis has an eighth, none of them may be there.
+  [[nodiscard]] std::size_t votes() const noexcept { return votes_count_; }
 
   /// The densest places of all votes so far, at most `Most` and RecognizerOptions::most of the model; returns how many.
   /// See recognize(). More key points may follow.
@@ -10036,7 +10541,7 @@ class MicroRecognizer {
   /// One vote for each of the codewords that are nearest.
   void vote(const Stored& stored, const Point& position, const Frame& frame) noexcept {
     Activated nearest[MaxActivated];
-    const std::size_t count = find_nearest(model_.arranged(stored), nearest);
+    const std::size_t count = find_nearest(stored, nearest);
     for (std::size_t i = 0; i < count; ++i) {
       const Point center = detail::from_local(model_.center_of(nearest[i].codeword), position, frame);
       const std::uint32_t instance = model_.instance_of(nearest[i].codeword);
@@ -10045,31 +10550,36 @@ class MicroRecognizer {
   }
 
   /// Nearest first, the first ones of those that are as near; returns how many count.
-  std::size_t find_nearest(const Stored& arranged, Activated (&nearest)[MaxActivated]) const noexcept {
+  std::size_t find_nearest(const Stored& stored, Activated (&nearest)[MaxActivated]) const noexcept {
+    const Stored arranged = model_.arranged(stored);
     for (Activated& none : nearest) none = {0, 0xFFFFFFFFu};
-    for (Activated next{0, 0};; ++next.codeword) {
-      next = first_below(arranged, next.codeword, nearest[MaxActivated - 1].distance);
-      if (next.codeword == model_.codeword_count()) break;
-      Activated moved = next;
-      bool is_nearer = false;  // and then all that come later make room
-      for (Activated& known : nearest) {
-        is_nearer = is_nearer || moved.distance < known.distance;
-        if (is_nearer) std::swap(moved, known);
+    model_.for_each_run([&](std::uint32_t first, const detail::CodewordRun& run) {
+      for (std::uint32_t i = 0; i < run.count; ++i) {
+        Activated next = first_below(run.is_arranged ? arranged : stored, run, i, nearest[MaxActivated - 1].distance);
+        if (next.codeword == run.count) break;
+        i = next.codeword;
+        next.codeword += first;
+        bool is_nearer = false;  // and then all that come later make room
+        for (Activated& known : nearest) {
+          is_nearer = is_nearer || next.distance < known.distance;
+          if (is_nearer) std::swap(next, known);
+        }
       }
-    }
+    });
     const std::uint32_t most = model_.options().neighbors;
     return most < model_.codeword_count() ? most : model_.codeword_count();
   }
 
-  /// The first codeword from one on whose distance is below the limit; the number of codewords if there is none. Not in
+  /// The first codeword of a run from i on whose distance is below the limit; their number if there is none. Not in
   /// line: here most of the time goes, and all registers.
-  [[gnu::noinline]] Activated first_below(const Stored& arranged, std::uint32_t codeword,
-                                          std::uint32_t limit) const noexcept {
-    const std::uint32_t count = model_.codeword_count();
-    const Stored* row = &model_.arranged(codeword);
-    for (; codeword < count; ++codeword, ++row) {
-      const std::uint32_t distance = detail::Storage<Stored>::distance_below(arranged, *row, limit);
-      if (distance < limit) return {codeword, distance};
+  [[gnu::noinline]] static Activated first_below(const Stored& stored, const detail::CodewordRun& run, std::uint32_t i,
+                                                 std::uint32_t limit) noexcept {
+    const std::uint32_t count = run.count;
+    const std::uint8_t* row = run.row(i);
+    for (; i < count; ++i, row += detail::FlashLayout::before_row + sizeof(Stored)) {
+      const auto& codeword = *reinterpret_cast<const Stored*>(row);
+      const std::uint32_t distance = detail::Storage<Stored>::distance_below(stored, codeword, limit);
+      if (distance < limit) return {i, distance};
     }
     return {count, limit};
   }
@@ -16772,20 +17282,6 @@ inline constexpr FileKind flash_model_file{{flash_model_magic, 8}, flash_model_v
   return unit;
 }
 
-/// In whole units, to the nearest.
-[[nodiscard]] inline std::uint16_t units_of(float coordinate, float unit) noexcept {
-  const float units = std::nearbyint(coordinate / unit);
-  return static_cast<std::uint16_t>(static_cast<std::int16_t>(std::max(-32767.0f, std::min(units, 32767.0f))));
-}
-
-/// Is the order of a row's numbers one? (On a board, an order that is none does no harm.)
-template <class Stored>
-[[nodiscard]] bool is_permutation(const ModelView<Stored>& model) {
-  std::vector<bool> known(model.number_count());
-  for (std::uint32_t i = 0; i < model.number_count(); ++i) known[model.place_of(i)] = true;
-  return std::find(known.begin(), known.end(), false) == known.end();
-}
-
 [[nodiscard]] inline bool fits_flash(const Codebook& codebook) noexcept {
   const auto has_zero = [](const std::string& text) { return text.find(char{0}) != std::string::npos; };
   for (const std::vector<std::string>* const names : {&codebook.classes, &codebook.instances}) {
@@ -16795,6 +17291,35 @@ template <class Stored>
     }
   }
   return !has_zero(codebook.layout);
+}
+
+/// What stands behind the codewords.
+[[nodiscard]] inline std::string flash_text(const Codebook& codebook) {
+  std::string text = codebook.layout + char{0};
+  for (const std::string& name : codebook.classes) text += name + char{0};
+  for (const std::string& name : codebook.instances) text += name + char{0};
+  return text;
+}
+
+/// How many codewords a model has that is no larger, with all names.
+template <class Stored>
+[[nodiscard]] std::size_t codewords_in_flash(const Codebook& codebook, std::size_t most_bytes) {
+  constexpr auto row_bytes = static_cast<std::uint32_t>(sizeof(Stored));
+  constexpr std::uint32_t numbers = 8 * row_bytes / Storage<Stored>::number_bits;
+  const auto text_bytes = static_cast<std::uint32_t>(flash_text(codebook).size());
+  const FlashLayout empty(row_bytes, numbers, 0, static_cast<std::uint32_t>(codebook.instances.size()), text_bytes);
+  const std::uint64_t most = most_bytes / 4 * 4;
+  if (most < empty.checksum + checksum_bytes) return 0;
+  return static_cast<std::size_t>((most - checksum_bytes - empty.text - text_bytes) /
+                                  (FlashLayout::before_row + row_bytes));
+}
+
+/// Is the order of a row's numbers one? (On a board, an order that is none does no harm.)
+template <class Stored>
+[[nodiscard]] bool is_permutation(const ModelView<Stored>& model) {
+  std::vector<bool> known(model.number_count());
+  for (std::uint32_t i = 0; i < model.number_count(); ++i) known[model.place_of(i)] = true;
+  return std::find(known.begin(), known.end(), false) == known.end();
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -16822,50 +17347,41 @@ template <class Stored>
   const float unit = detail::unit_of_centers(codebook.codewords);
   if (unit > 1e29f) return Status::bad_rows;
 
-  std::string text = codebook.layout + char{0};
-  for (const std::string& name : codebook.classes) text += name + char{0};
-  for (const std::string& name : codebook.instances) text += name + char{0};
+  constexpr int bits = detail::Storage<Stored>::number_bits;
+  const std::vector<std::uint32_t> order =
+      detail::most_telling_first<bits>(codebook.packed.data(), codebook.codewords.size(), sizeof(Stored),
+                                       [](unsigned a, unsigned b) { return (a - b) * (a - b); });
+  const std::string text = detail::flash_text(codebook);
   const std::uint64_t most = 0xFFFFFFFFu;
   if (codebook.codewords.size() > most || text.size() > most) return Status::bad_rows;
-  constexpr int bits = detail::Storage<Stored>::number_bits;
-  constexpr auto row_bytes = static_cast<std::uint32_t>(sizeof(Stored));
-  const auto codewords = static_cast<std::uint32_t>(codebook.codewords.size());
-  const auto instances = static_cast<std::uint32_t>(codebook.instances.size());
-  const detail::FlashLayout layout(row_bytes, 8 * row_bytes / bits, codewords, instances,
-                                   static_cast<std::uint32_t>(text.size()));
+  detail::FlashHeader header{0,
+                             detail::storage_number<Stored>,
+                             recognizer.options(),
+                             sizeof(Stored),
+                             bits,
+                             static_cast<std::uint32_t>(codebook.codewords.size()),
+                             static_cast<std::uint32_t>(codebook.instances.size()),
+                             static_cast<std::uint32_t>(codebook.classes.size()),
+                             static_cast<std::uint32_t>(text.size()),
+                             unit};
+  const detail::FlashLayout layout = header.layout();
   const std::uint64_t size_bytes = layout.checksum + detail::checksum_bytes;
   if (size_bytes > most) return Status::bad_rows;
 
   detail::ByteWriter to(bytes, detail::flash_model_file, static_cast<std::size_t>(size_bytes));
-  to.number(static_cast<std::uint32_t>(size_bytes));
-  to.number(detail::storage_number<Stored>);
-  to.real(recognizer.options().bandwidth);
-  to.number(recognizer.options().neighbors);
-  to.number(recognizer.options().most);
-  to.number(row_bytes);
-  to.number(codewords);
-  to.number(instances);
-  to.number(static_cast<std::uint32_t>(codebook.classes.size()));
-  to.number(static_cast<std::uint32_t>(text.size()));
-  to.real(unit);
-  to.number(std::uint32_t{bits});
+  header.size_bytes = static_cast<std::uint32_t>(size_bytes);
+  detail::write(to, header);
   for (const std::uint32_t object_class : codebook.class_of) to.number(static_cast<std::uint16_t>(object_class));
-  to.pad(static_cast<std::size_t>(layout.codewords));
-  for (const detail::Codebook::Codeword& codeword : codebook.codewords) {
-    to.number(static_cast<std::uint16_t>(codeword.instance));
-    to.number(detail::units_of(codeword.center.x, unit));
-    to.number(detail::units_of(codeword.center.y, unit));
-    to.number(detail::units_of(codeword.center.z, unit));
-  }
-  const std::vector<std::uint32_t> order = detail::most_telling_first<bits>(
-      codebook.packed.data(), codewords, row_bytes, [](unsigned a, unsigned b) { return (a - b) * (a - b); });
+  to.pad(static_cast<std::size_t>(layout.order));
   for (const std::uint32_t place : order) to.number(static_cast<std::uint16_t>(place));
-  to.pad(static_cast<std::size_t>(layout.rows));
-  for (std::uint32_t i = 0; i < codewords; ++i) {
+  to.pad(static_cast<std::size_t>(layout.codewords));
+  const std::uint8_t* row = codebook.packed.data();
+  for (const detail::Codebook::Codeword& codeword : codebook.codewords) {
+    detail::write_codeword(to, codeword.instance, codeword.center, unit);
     Stored arranged;
-    detail::arrange<bits>(codebook.packed.data() + std::size_t{row_bytes} * i, arranged.bytes, sizeof arranged.bytes,
-                          [&](std::size_t n) { return order[n]; });
+    detail::arrange<bits>(row, arranged.bytes, sizeof arranged.bytes, [&](std::size_t i) { return order[i]; });
     for (const std::uint8_t byte : arranged.bytes) to.number(byte);
+    row += sizeof(Stored);
   }
   for (const char c : text) to.number(static_cast<std::uint8_t>(c));
   to.pad(static_cast<std::size_t>(layout.checksum));
@@ -16873,16 +17389,14 @@ template <class Stored>
   return Status::ok;
 }
 
-/// The recognizer that gives the hypotheses that a MicroRecognizer gives with the model, bit for bit: of its codewords,
-/// with centers as they were rounded.
+/// The recognizer that gives the hypotheses that a MicroRecognizer gives with the model, also with what was learned on
+/// the spot (LearnedObjects::model()), bit for bit: of its codewords, with centers as they were rounded.
 ///
-/// Statuses: not_a_model, other_version, damaged_model, other_descriptor; `out` has not changed then. Allocates a few
-/// times the bytes at the most.
+/// Statuses: not_trained (no model is open), damaged_model (the order of a row's numbers is none); `out` has not
+/// changed then. Allocates a few times the bytes at the most.
 template <class Stored>
-[[nodiscard]] Status load_from_flash(const std::uint8_t* bytes, std::size_t size_bytes, Recognizer& out) {
-  ModelView<Stored> model;
-  const Status status = model.open(bytes, size_bytes);
-  if (status != Status::ok) return status;
+[[nodiscard]] Status load_from_flash(const ModelView<Stored>& model, Recognizer& out) {
+  if (model.codeword_count() == 0) return Status::not_trained;
   if (!detail::is_permutation(model)) return Status::damaged_model;
   Recognizer loaded(model.options());
   detail::Codebook& codebook = detail::RecognizerAccess::codebook(loaded);
@@ -16900,6 +17414,14 @@ template <class Stored>
   }
   out = std::move(loaded);
   return Status::ok;
+}
+
+/// The same of the bytes that save_for_flash() has written. Also not_a_model, other_version, other_descriptor.
+template <class Stored>
+[[nodiscard]] Status load_from_flash(const std::uint8_t* bytes, std::size_t size_bytes, Recognizer& out) {
+  ModelView<Stored> model;
+  const Status status = model.open(bytes, size_bytes);
+  return status == Status::ok ? load_from_flash(model, out) : status;
 }
 
 /// The bytes of a model as a C++ header: `alignas(4) constexpr unsigned char NAME[] = {...};`. `name` is a C++
@@ -17975,6 +18497,163 @@ inline namespace SHORTSHOT_CODE {
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_RECOGNITION_RECOGNIZER_MODEL_HPP
+
+// shortshot/recognition/thin.hpp: a trained recognizer with fewer codewords, for small memories. Hosted only:
+// allocates.
+//
+// Each codeword is asked for as if it were seen: without it, which is nearest, and does that vote for the same instance
+// at the same place? Codewords go one after the other, always the one that costs fewest right votes. After the idea of
+// decremental reduction: D. R. Wilson, T. R. Martinez: Reduction techniques for instance-based learning algorithms
+// (Machine Learning 38, 2000).
+#ifndef SHORTSHOT_RECOGNITION_THIN_HPP
+#define SHORTSHOT_RECOGNITION_THIN_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// What is left of a codebook, and whom each of its codewords, also those that are gone, would activate.
+template <class Rows>
+class Thinning {
+ public:
+  Thinning(const Codebook& codebook, const Rows& rows, float bandwidth)
+      : codebook_(codebook),
+        rows_(rows),
+        squared_bandwidth_(unfused(bandwidth * bandwidth)),
+        is_left_(rows.count, true),
+        left_of_(codebook.instances.size(), 0),
+        nearest_(rows.count) {
+    for (const Codebook::Codeword& codeword : codebook.codewords) ++left_of_[codeword.instance];
+    for (std::size_t i = 0; i < rows.count; ++i) find_nearest(i);
+  }
+
+  [[nodiscard]] bool is_left(std::size_t codeword) const { return is_left_[codeword]; }
+
+  /// Takes one of the instance that has most: the one that costs fewest right votes; of those, who is activated least;
+  /// of those, the last one.
+  void remove_one() {
+    std::vector<Loss> losses(rows_.count);
+    for (std::size_t i = 0; i < rows_.count; ++i) {
+      const TwoNearest& two = nearest_[i];
+      if (two.first == no_row) continue;
+      losses[two.first].right_votes += two.lost;
+      ++losses[two.first].votes;
+    }
+    std::uint32_t most = 0;
+    for (const std::uint32_t left : left_of_) most = left > most ? left : most;
+    std::size_t least = rows_.count;
+    for (std::size_t i = rows_.count; i-- > 0;) {
+      if (!is_left_[i] || left_of_[codebook_.codewords[i].instance] != most) continue;
+      if (least == rows_.count || losses[i] < losses[least]) least = i;
+    }
+    is_left_[least] = false;
+    --left_of_[codebook_.codewords[least].instance];
+    for (std::size_t i = 0; i < rows_.count; ++i) {
+      if (nearest_[i].first == least || nearest_[i].second == least) find_nearest(i);
+    }
+  }
+
+ private:
+  struct TwoNearest {
+    std::size_t first = no_row;
+    std::size_t second = no_row;
+    int lost = 0;  // right votes, if the first one goes
+  };
+  struct Loss {
+    std::int64_t right_votes = 0;
+    std::size_t votes = 0;
+    [[nodiscard]] bool operator<(const Loss& other) const {
+      return right_votes != other.right_votes ? right_votes < other.right_votes : votes < other.votes;
+    }
+  };
+
+  /// Of those that are left, but for itself; the first ones of those that are as near.
+  void find_nearest(std::size_t i) {
+    TwoNearest two;
+    typename RowsNumber<Rows>::type first{};
+    typename RowsNumber<Rows>::type second{};
+    for (std::size_t k = 0; k < rows_.count; ++k) {
+      if (k == i || !is_left_[k]) continue;
+      const auto distance = rows_.compare(i, rows_, k);
+      if (two.first == no_row || distance < first) {
+        two = {k, two.first, 0};
+        second = std::exchange(first, distance);
+      } else if (two.second == no_row || distance < second) {
+        two.second = k;
+        second = distance;
+      }
+    }
+    two.lost = (is_right(i, two.first) ? 1 : 0) - (is_right(i, two.second) ? 1 : 0);
+    nearest_[i] = two;
+  }
+
+  /// Would k vote as i does, where i is seen?
+  [[nodiscard]] bool is_right(std::size_t i, std::size_t k) const {
+    if (k == no_row) return false;
+    const Codebook::Codeword& a = codebook_.codewords[i];
+    const Codebook::Codeword& b = codebook_.codewords[k];
+    return a.instance == b.instance && squared_distance(a.center, b.center) <= squared_bandwidth_;
+  }
+
+  const Codebook& codebook_;
+  const Rows rows_;
+  const float squared_bandwidth_;
+  std::vector<bool> is_left_;
+  std::vector<std::uint32_t> left_of_;  // of each instance
+  std::vector<TwoNearest> nearest_;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// A recognizer of StoredFeatures<Stored> (codes or bits) with at most so many codewords: those that contribute most to
+/// right votes. Each instance keeps as many as any other, or all that it has; they keep their order. So instances with
+/// many views do not outvote those with few any more, either. The same on every machine.
+///
+/// Statuses: not_trained, bad_option (of the recognizer, or fewer codewords than there are instances),
+/// other_descriptor. `out`, which may be the same recognizer, has not changed then. Compares each codeword with all
+/// others some four times: 6 s for 10,000 of 44 bytes. Allocates 25 bytes for each, and the copy.
+template <class Stored>
+[[nodiscard]] Status thin(const Recognizer& recognizer, std::size_t most_codewords, Recognizer& out) {
+  const detail::Codebook& codebook = detail::RecognizerAccess::codebook(recognizer);
+  Status status = validate(recognizer.options());
+  if (codebook.codewords.empty()) status = Status::not_trained;
+  if (status == Status::ok) status = detail::validate_queries(codebook, sizeof(Stored), true, storage_layout<Stored>());
+  if (status == Status::ok && most_codewords < codebook.instances.size()) status = Status::bad_option;
+  if (status != Status::ok) return status;
+  Recognizer thinned(recognizer);
+  if (codebook.codewords.size() > most_codewords) {
+    const auto rows = detail::rows_like(rows_of(StoredFeatures<Stored>()), codebook);
+    detail::Thinning<std::decay_t<decltype(rows)>> thinning(codebook, rows, recognizer.options().bandwidth);
+    for (std::size_t left = rows.count; left > most_codewords; --left) thinning.remove_one();
+    detail::Codebook& kept = detail::RecognizerAccess::codebook(thinned);
+    kept.codewords.clear();
+    kept.packed.clear();
+    for (std::size_t i = 0; i < rows.count; ++i) {
+      if (!thinning.is_left(i)) continue;
+      kept.codewords.push_back(codebook.codewords[i]);
+      detail::append(kept, rows, i);
+    }
+  }
+  out = std::move(thinned);
+  return Status::ok;
+}
+
+/// The same with as many codewords as a model for flash of at most so many bytes has: save_for_flash(out, ...).
+/// Also out_of_memory, in place of bad_option: it has not one for each instance.
+template <class Stored>
+[[nodiscard]] Status thin_for_flash(const Recognizer& recognizer, std::size_t most_bytes, Recognizer& out) {
+  const detail::Codebook& codebook = detail::RecognizerAccess::codebook(recognizer);
+  const std::size_t most = detail::codewords_in_flash<Stored>(codebook, most_bytes);
+  if (!codebook.codewords.empty() && most < codebook.instances.size()) return Status::out_of_memory;
+  return thin<Stored>(recognizer, most, out);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_RECOGNITION_THIN_HPP
 #endif
 
 #if defined(NANOFLANN_VERSION)

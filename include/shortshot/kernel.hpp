@@ -7,6 +7,7 @@
 #include "frame/fixed_lamp_frame.hpp"
 #include "frame/normal.hpp"
 #include "kernel/describe_at.hpp"
+#include "recognition/learned_objects.hpp"
 #include "recognition/micro_recognizer.hpp"
 #include "search/brute.hpp"
 #include "search/cell_index.hpp"

@@ -41,6 +41,7 @@
 #include "recognition/recognize.hpp"
 #include "recognition/recognize_stored.hpp"
 #include "recognition/recognizer_model.hpp"
+#include "recognition/thin.hpp"
 #endif
 
 #if defined(NANOFLANN_VERSION)

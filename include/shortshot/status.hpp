@@ -56,10 +56,11 @@ enum class [[nodiscard]] Status : std::uint8_t {
   short_rows,           ///< a message's rows are shorter than their points, and its data is not as long as all points
   other_cloud,          ///< the search is over another cloud than the one that is described
   coarse_coordinates,   ///< coordinates so large that floats lie farther apart than a 64th of the radius
+  not_written,          ///< a memory does not hold what was written to it: it was not erased, or is worn out
 };
 // clang-format on
 
-inline constexpr int status_count = static_cast<int>(Status::coarse_coordinates) + 1;
+inline constexpr int status_count = static_cast<int>(Status::not_written) + 1;
 
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
@@ -110,6 +111,7 @@ inline namespace SHORTSHOT_CODE {
     case Status::other_cloud: return "the search was built over another cloud";
     case Status::coarse_coordinates:
       return "the coordinates are too large: float rounds them to steps that are not small against the radius";
+    case Status::not_written: return "the memory does not hold what was written to it";
   }
   return "unknown status";
 }

@@ -59,14 +59,15 @@ endforeach()
 
 set(page "${there}/firmware_page")
 build_test(firmware_page "${CMAKE_COMMAND}" "-DDOCUMENT=${PROJECT_SOURCE_DIR}/bench/firmware/README.md"
-  -DEXAMPLES=firmware,cycles,train_for_flash,recognize,small_sensor,zephyr "-DOUTPUT_DIR=${page}" -P "${here}/extract_examples.cmake")
+  -DEXAMPLES=firmware,cycles,train_for_flash,recognize,learn,small_sensor,zephyr "-DOUTPUT_DIR=${page}" -P "${here}/extract_examples.cmake")
 build_test(firmware_page.host "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" -O2
   "${page}/firmware.cpp" "${here}/firmware_page_main.cpp" -o "${page}/firmware")
 build_test(firmware_page.host.runs "${page}/firmware")
 depends(firmware_page.host firmware_page)
 depends(firmware_page.host.runs firmware_page.host)
 build_test(firmware_page.recognition "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}"
-  "${page}/train_for_flash.cpp" "${page}/recognize.cpp" "${here}/recognition_page_main.cpp" -o "${page}/recognition")
+  "${page}/train_for_flash.cpp" "${page}/recognize.cpp" "${page}/learn.cpp" "${here}/recognition_page_main.cpp"
+  -o "${page}/recognition")
 build_test(firmware_page.recognition.runs "${page}/recognition")
 depends(firmware_page.recognition firmware_page)
 depends(firmware_page.recognition.runs firmware_page.recognition)
@@ -76,7 +77,7 @@ build_test(firmware_page.small_sensor_host.runs "${page}/small_sensor")
 depends(firmware_page.small_sensor_host firmware_page)
 depends(firmware_page.small_sensor_host.runs firmware_page.small_sensor_host)
 if(arm-none-eabi_compiler)
-  foreach(example IN ITEMS firmware cycles recognize small_sensor)
+  foreach(example IN ITEMS firmware cycles recognize learn small_sensor)
     build_test(firmware_page.${example} "${arm-none-eabi_compiler}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}"
       -Os ${no_runtime} ${cortex_m7} -c "${page}/${example}.cpp" -o "${page}/${example}.o")
     build_test(firmware_page.${example}.symbols "${check_symbols}" "${page}/${example}.o")

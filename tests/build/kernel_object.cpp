@@ -29,6 +29,8 @@ shortshot::ModelView<Sums> model_of_sums;
 shortshot::MicroRecognizer<Nibbles, 32, max_neighbors> of_nibbles;
 shortshot::MicroRecognizer<Sums, 32, max_neighbors, 2> of_sums;
 shortshot::Hypothesis found[2];
+shortshot::RamMemory<4096> ram;
+shortshot::LearnedObjects<Sums, shortshot::RamMemory<4096>> learned;
 
 using Multilinear = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::MultilinearVoting>;
 using Hard = shortshot::Ssh<shortshot::SphericalGrid<2, 2, 8>, shortshot::HardVoting, shortshot::LogRadius<>>;
@@ -128,6 +130,23 @@ extern "C" const char* recognize_patch(const float* xyz, const unsigned char* rg
     status = recognize(model_of_sums, of_sums, cloud, radius, in_flash, size, &name);
   }
   return status == shortshot::Status::ok ? name : shortshot::message(status);
+}
+
+extern "C" const char* learn_patch(const float* xyz, const unsigned char* rgb, std::size_t count, float radius,
+                                   const char* name) {
+  using shortshot::Status;
+  const shortshot::CloudView cloud = shortshot::view_xyz_rgb(xyz, rgb, count);
+  shortshot::StoredKeyPoint<Sums> key;
+  ram.erase();
+  Status status = learned.open(model_of_sums, ram);
+  if (status == Status::ok) status = grid.build(cloud, radius);
+  for (std::size_t i = 0; i < cloud.size && status == Status::ok; i += 7) {
+    status = of_sums.describe(cloud, grid, i, radius, key);
+    if (status == Status::ok) status = learned.add(key, {0.0f, 0.0f, 1.0f});
+  }
+  if (status == Status::ok) status = learned.commit(name, name);
+  of_sums.start(learned.model());
+  return shortshot::message(status);
 }
 
 extern "C" const float* describe_patch(const float* xyz, const unsigned char* rgb, std::size_t count, std::size_t width,

@@ -47,7 +47,9 @@ int main() {
     }
   }
   std::vector<std::uint8_t> bytes;
-  if (save_for_flash(recognizer, bytes) != Status::ok || model.open(bytes.data(), bytes.size()) != Status::ok) return 2;
+  if (shortshot::save_for_flash<Nibbles>(recognizer, bytes) != Status::ok ||
+      model.open(bytes.data(), bytes.size()) != Status::ok)
+    return 2;
   std::vector<std::string> answers;
   for (const int distance : {150, 190, 230}) {
     answers.emplace_back(what_is_held(frame_of(1.0f, distance).data(), {}, {}));

@@ -1,10 +1,12 @@
 // Files of recognizers and of features, damaged: a status, or what is saved again with the same bytes. Models in flash,
-// damaged: a status, or the same hypotheses by both recognizers.
+// damaged: a status, or the same hypotheses by both recognizers. What was learned on the spot, damaged: passed over, or
+// the same hypotheses, and more can be learned behind it.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <shortshot/descriptor/compact.hpp>
 #include <shortshot/recognition/flash_model_file.hpp>
+#include <shortshot/recognition/learned_objects.hpp>
 #include <shortshot/recognition/micro_recognizer.hpp>
 #include <shortshot/recognition/recognize_stored.hpp>
 #include <shortshot/recognition/recognizer_model.hpp>
@@ -82,6 +84,40 @@ File flash_model() {
   return file;
 }
 
+/// Memory in units of 4 bytes, which are programmed once.
+struct Memory {
+  static constexpr std::size_t unit_bytes = 4;
+  File file;
+
+  const std::uint8_t* bytes() const { return file.data(); }
+  std::size_t size_bytes() const { return file.size(); }
+  bool write(std::size_t place, const std::uint8_t* unit) {
+    for (std::size_t k = place; k < place + 4; ++k) require(file.at(k) == 0xFF, "no unit is programmed twice");
+    std::copy(unit, unit + 4, file.begin() + static_cast<std::ptrdiff_t>(place));
+    return true;
+  }
+};
+using Bytes = ss::ByteDescriptor<D>;
+using Learned = ss::LearnedObjects<Bytes, Memory, 4>;
+const ss::ModelView<Bytes> nothing({0.03f, 1, 8});
+
+ss::StoredKeyPoint<Bytes> made_key() {
+  Stored stored;
+  require(ss::store(made_features(), stored) == Status::ok, "stored");
+  return {stored.descriptors[0], stored.keypoints[0].position, stored.frames[0]};
+}
+
+/// One object, and nothing behind it: its checksum is where files have theirs.
+File learned_object() {
+  Memory memory{File(1024, 0xFF)};
+  Learned learned;
+  require(learned.open(nothing, memory) == Status::ok, "opened");
+  require(learned.add(made_key(), {1.0f, 2.0f, 3.1f}) == Status::ok, "added");
+  require(learned.commit("mug", "red") == Status::ok, "learned");
+  memory.file.resize(memory.file.size() - learned.bytes_left());
+  return memory.file;
+}
+
 File file_of_features() {
   File file;
   require(ss::save(made_features(), file) == Status::ok, "saved");
@@ -91,7 +127,8 @@ File file_of_features() {
 /// One of ours with some changes, or the fuzzer's bytes as they are.
 File made_file(fuzz::Bytes& from, std::size_t kind, bool is_raw) {
   static const File whole[] = {file_of_recognizer(),      file_of_features(),          file_of_storage<Stored>(),
-                               file_of_storage<Halves>(), file_of_packed_recognizer(), flash_model()};
+                               file_of_storage<Halves>(), file_of_packed_recognizer(), flash_model(),
+                               learned_object()};
   if (is_raw) return File(from.data(), from.data() + from.left());
   File file = whole[kind];
   while (from.left() > 0 && !file.empty()) {
@@ -157,8 +194,24 @@ void load_recognizer(const File& file, const std::string& layout, bool is_packed
   check_hypotheses(recognizer, ss::recognize(recognizer, row, layout, objects), objects);
 }
 
+void require_same_hypotheses(const ss::ModelView<Bytes>& model, const ss::Recognizer* hosted) {
+  Stored stored;
+  std::vector<ss::Hypothesis> expected;
+  require(ss::store(made_features(), stored) == Status::ok, "stored");
+  ss::MicroRecognizer<Bytes, 2, 5, 4> recognizer;
+  recognizer.start(model);
+  const Status added = recognizer.add(stored.descriptors[0], stored.keypoints[0].position, stored.frames[0]);
+  if (hosted == nullptr || added != Status::ok) return;  // more than four activated
+  ss::Hypothesis found[4];
+  const std::size_t count = recognizer.finish(found);
+  require(ss::recognize(*hosted, stored, expected) == Status::ok, "what can be loaded recognizes");
+  require(count == std::min<std::size_t>(4, expected.size()), "as many hypotheses");
+  for (std::size_t i = 0; i < count; ++i) {
+    require(std::memcmp(&found[i], &expected[i], sizeof found[i]) == 0, "the same ones, bit for bit");
+  }
+}
+
 void open_flash_model(const File& file) {
-  using Bytes = ss::ByteDescriptor<D>;
   ss::ModelView<Bytes> model;
   ss::Recognizer loaded;
   const Status status = model.open(file.data(), file.size());
@@ -171,20 +224,27 @@ void open_flash_model(const File& file) {
   }
   for (std::uint32_t i = 0; i < model.class_count(); ++i)
     require(std::strlen(model.class_name(i)) < file.size(), "a name");
-  Stored stored;
-  std::vector<ss::Hypothesis> expected;
-  require(ss::store(made_features(), stored) == Status::ok, "stored");
-  ss::MicroRecognizer<Bytes, 2, 5, 4> recognizer;
-  recognizer.start(model);
-  const Status added = recognizer.add(stored.descriptors[0], stored.keypoints[0].position, stored.frames[0]);
-  if (of_host != Status::ok || added != Status::ok) return;  // an order that is none; more than four activated
-  ss::Hypothesis found[4];
-  const std::size_t count = recognizer.finish(found);
-  require(ss::recognize(loaded, stored, expected) == Status::ok, "what can be loaded recognizes");
-  require(count == std::min<std::size_t>(4, expected.size()), "as many hypotheses");
-  for (std::size_t i = 0; i < count; ++i) {
-    require(std::memcmp(&found[i], &expected[i], sizeof found[i]) == 0, "the same ones, bit for bit");
-  }
+  require_same_hypotheses(model, of_host == Status::ok ? &loaded : nullptr);  // null: another text of the layout
+}
+
+void open_learned(const File& file) {
+  Memory memory{file};
+  memory.file.resize((file.size() + 3) / 4 * 4 + 512, 0xFF);
+  Learned learned;
+  const Status status = learned.open(nothing, memory);
+  if (status != Status::ok) return;
+  const std::uint32_t before = learned.model().codeword_count();
+  if (before > 64) return;
+  Status added = learned.add(made_key(), {1.0f, 2.0f, 3.0f});
+  if (added == Status::ok) added = learned.commit("can", "blue");
+  require(added == Status::ok || added == Status::out_of_memory, "there is room behind it");
+  ss::Recognizer loaded;
+  if (learned.model().codeword_count() == 0) return;
+  require(ss::load_from_flash(learned.model(), loaded) == Status::ok, "it can be loaded");
+  require_same_hypotheses(learned.model(), &loaded);
+  Learned again;
+  require(again.open(nothing, memory) == Status::ok, "it is found again");
+  require(again.model().codeword_count() == before + (added == Status::ok ? 1 : 0), "as it was");
 }
 
 template <class Some>
@@ -204,15 +264,16 @@ void load_features(const File& file) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Bytes from(data, size);
   const std::uint8_t how = from.byte();
-  const std::size_t kind = how < 224 ? how % 5 : 5;
+  const std::size_t kind = how < 224 ? how % 5 : how < 240 ? 5 : 6;
   File file = made_file(from, kind, how % 25 / 5 == 0);
-  if (how < 192 || how >= 232) seal(file);
+  if (how < 192 || (how >= 232 && how < 248)) seal(file);
   switch (kind) {
     case 0: load_recognizer(file, plain_layout, false); break;
     case 1: load_features<ss::Features<D>>(file); break;
     case 2: load_features<Stored>(file); break;
     case 3: load_features<Halves>(file); break;
     case 5: open_flash_model(file); break;
+    case 6: open_learned(file); break;
     default: load_recognizer(file, ss::storage_layout<ss::ByteDescriptor<D>>(), true);
   }
   return 0;

@@ -21,6 +21,7 @@ using Recognizer = shortshot::MicroRecognizer<Stored, 128, 768>;
 using Grid = shortshot::StaticGrid<10240, 8192>;
 
 inline constexpr std::size_t keypoints = 100;  // of a view that is asked for, at the most
+inline constexpr float least_share = 0.125f;   // of the votes, that a score must have: or it is none of these
 
 /// What is not the recognizer's belongs to the measurement.
 struct Memory {

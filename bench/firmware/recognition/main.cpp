@@ -22,6 +22,7 @@ struct Options {
   std::string directory;
   std::string segments;
   std::vector<std::size_t> kilobytes;
+  std::vector<std::size_t> thinned;
 };
 
 void write(const std::string& path, const std::string& bytes) {
@@ -91,6 +92,8 @@ void write_left_out(const std::string& path, const std::string& target, std::siz
   facts.add("model_bytes", result.model_bytes);
   facts.add("right", result.instances_right);
   facts.add("right_classes", result.classes_right);
+  facts.add("right_kept", result.right_kept);
+  facts.add("unknown_refused", result.unknown_refused);
   facts.add("views_behind_floats", right_with_floats - std::min(right_with_floats, result.instances_right));
   facts.write_to(path);
 }
@@ -100,15 +103,20 @@ void leave_out(const Options& options, const std::vector<Segment>& segments) {
   std::vector<LeftOut> results;
   std::size_t keypoints = 0;
   for (const std::size_t kilobytes : options.kilobytes) {
-    results.push_back(leave_scenes_out(segments, 1024 * kilobytes));
+    results.push_back(leave_scenes_out(segments, 1024 * kilobytes, false));
     keypoints = std::max(keypoints, results.back().keypoints);
   }
+  std::vector<LeftOut> thinned;
+  for (const std::size_t kilobytes : options.thinned)
+    thinned.push_back(leave_scenes_out(segments, 1024 * kilobytes, true));
   const LeftOut floats = leave_scenes_out_with_cshot(segments, keypoints);
   const auto write_one = [&](const std::string& name, const LeftOut& result) {
     write_left_out(options.directory + "/left_out_" + name + ".txt", "host_" + name, segments.size(), result,
                    floats.instances_right);
   };
   write_one("cshot1344_floats", floats);
+  for (std::size_t i = 0; i < thinned.size(); ++i)
+    write_one(std::to_string(options.thinned[i]) + "KB_thinned", thinned[i]);
   for (std::size_t i = 0; i < results.size(); ++i) write_one(std::to_string(options.kilobytes[i]) + "KB", results[i]);
 }
 
@@ -125,6 +133,10 @@ int main(int argc, char** argv) {
       ->needs(segments)
       ->delimiter(',')
       ->check(CLI::PositiveNumber);
+  app.add_option("--thinned", options.thinned, "the same of models that were thinned to these sizes")
+      ->needs(segments)
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -136,7 +148,7 @@ int main(int argc, char** argv) {
     } else {
       const std::vector<Segment> all = read_segments(options.segments);
       make(options.directory, "Segments", segments_task(all));
-      if (!options.kilobytes.empty()) leave_out(options, all);
+      if (!options.kilobytes.empty() || !options.thinned.empty()) leave_out(options, all);
     }
     return 0;
   } catch (const std::exception& error) {

@@ -45,49 +45,74 @@ std::set<std::string> scenes_of(const std::vector<Segment>& segments) {
   return scenes;
 }
 
-/// The recognizer that a board has of it.
-ss::Recognizer as_on_board(const ss::Recognizer& recognizer) {
+std::vector<std::uint8_t> flash_of(const ss::Recognizer& recognizer) {
   std::vector<std::uint8_t> model;
   require(ss::save_for_flash<recognition::Stored>(recognizer, model));
+  return model;
+}
+
+/// The recognizer that a board has of it.
+ss::Recognizer as_on_board(const ss::Recognizer& recognizer) {
+  const std::vector<std::uint8_t> model = flash_of(recognizer);
   ss::Recognizer loaded;
   require(ss::load_from_flash<recognition::Stored>(model.data(), model.size(), loaded));
   return loaded;
 }
 
-/// Trains with all but one scene, and asks finished(recognizer) for that, scene by scene.
+/// Trains with the segments that are not left out; the recognizer is finished(recognizer).
+template <class Features, class IsLeftOut, class Finished>
+ss::Recognizer train_without(const std::vector<Segment>& segments, const std::vector<Features>& learned,
+                             const IsLeftOut& is_left_out, const Finished& finished) {
+  ss::Recognizer recognizer(recognizer_options());
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const LabeledView& view = segments[i].view;
+    if (is_left_out(segments[i])) continue;
+    require(ss::train(recognizer, learned[i], view.center, view.object_class, view.instance));
+  }
+  return finished(recognizer);
+}
+
+/// May it be one of the objects that were learned?
+template <class Features>
+bool is_one_of_these(const std::vector<ss::Hypothesis>& found, const Features& asked) {
+  const auto votes = std::count(asked.status.begin(), asked.status.end(), ss::Status::ok);
+  return !found.empty() && found[0].score >= recognition::least_share * static_cast<float>(votes);
+}
+
+/// Trains with all but one scene, and asks for that, scene by scene; then without the object that is asked for, too.
 template <class Features, class Finished>
 LeftOut leave_out(const std::vector<Segment>& segments, const std::vector<Features>& learned,
                   const std::vector<Features>& asked, const Finished& finished) {
   LeftOut out;
+  std::vector<ss::Hypothesis> found;
   for (const std::string& scene : scenes_of(segments)) {
-    ss::Recognizer recognizer(recognizer_options());
+    const auto is_in_scene = [&](const Segment& segment) { return segment.scene == scene; };
+    const ss::Recognizer recognizer = train_without(segments, learned, is_in_scene, finished);
     for (std::size_t i = 0; i < segments.size(); ++i) {
       const LabeledView& view = segments[i].view;
-      if (segments[i].scene == scene) continue;
-      require(ss::train(recognizer, learned[i], view.center, view.object_class, view.instance));
-    }
-    recognizer = finished(recognizer);
-    for (std::size_t i = 0; i < segments.size(); ++i) {
-      const LabeledView& view = segments[i].view;
-      if (segments[i].scene != scene) continue;
-      std::vector<ss::Hypothesis> found;
+      if (!is_in_scene(segments[i])) continue;
       require(ss::recognize(recognizer, asked[i], found));
-      out.instances_right += is_right(recognizer, view, found) ? 1 : 0;
+      const bool right = is_right(recognizer, view, found);
       const bool is_class = !found.empty() && recognizer.class_name(found[0].object_class) == view.object_class;
+      out.instances_right += right ? 1 : 0;
       out.classes_right += is_class ? 1 : 0;
+      out.right_kept += right && is_one_of_these(found, asked[i]) ? 1 : 0;
+      const auto is_unknown = [&](const Segment& segment) {
+        return is_in_scene(segment) || segment.view.instance == view.instance;
+      };
+      require(ss::recognize(train_without(segments, learned, is_unknown, finished), asked[i], found));
+      out.unknown_refused += is_one_of_these(found, asked[i]) ? 0 : 1;
     }
   }
   return out;
 }
 
 /// Of all segments, with so many key points each.
-std::vector<std::uint8_t> model_of(const std::vector<Segment>& segments, std::size_t keypoints) {
+ss::Recognizer trained(const std::vector<Segment>& segments, std::size_t keypoints) {
   RecognitionTask task = empty_task();
   task.training_keypoints = keypoints;
   for (const Segment& segment : segments) task.training.push_back(segment.view);
-  std::vector<std::uint8_t> model;
-  require(ss::save_for_flash<recognition::Stored>(train_stored(task), model));
-  return model;
+  return train_stored(task);
 }
 
 /// The most key points a view of which a model of all segments is not larger; at least 1.
@@ -95,7 +120,7 @@ std::size_t keypoints_in(const std::vector<Segment>& segments, std::size_t most_
   std::size_t fit = 1, do_not = 1024;
   while (do_not - fit > 1) {
     const std::size_t middle = (fit + do_not) / 2;
-    (model_of(segments, middle).size() <= most_bytes ? fit : do_not) = middle;
+    (flash_of(trained(segments, middle)).size() <= most_bytes ? fit : do_not) = middle;
   }
   return fit;
 }
@@ -127,16 +152,22 @@ RecognitionTask segments_task(const std::vector<Segment>& segments) {
   return task;
 }
 
-LeftOut leave_scenes_out(const std::vector<Segment>& segments, std::size_t most_bytes) {
-  const std::size_t keypoints = keypoints_in(segments, most_bytes);
+LeftOut leave_scenes_out(const std::vector<Segment>& segments, std::size_t most_bytes, bool thinned) {
+  const std::size_t keypoints = keypoints_in(segments, thinned ? 3 * most_bytes : most_bytes);
   const RecognitionTask task = empty_task();
   std::vector<ss::StoredFeatures<recognition::Stored>> learned, asked;
   for (const Segment& segment : segments) {
     learned.push_back(stored(task, segment.view, keypoints));
     asked.push_back(stored(task, segment.view, recognition::keypoints));
   }
-  LeftOut out = leave_out(segments, learned, asked, as_on_board);
-  const std::vector<std::uint8_t> model = model_of(segments, keypoints);
+  const auto smaller = [&](const ss::Recognizer& recognizer) {
+    ss::Recognizer out = recognizer;
+    if (thinned) require(ss::thin_for_flash<recognition::Stored>(recognizer, most_bytes, out));
+    return out;
+  };
+  LeftOut out = leave_out(segments, learned, asked,
+                          [&](const ss::Recognizer& recognizer) { return as_on_board(smaller(recognizer)); });
+  const std::vector<std::uint8_t> model = flash_of(smaller(trained(segments, keypoints)));
   ss::ModelView<recognition::Stored> view;
   require(view.open(model.data(), model.size()));
   out.keypoints = keypoints;

@@ -27,11 +27,14 @@ struct LeftOut {
   std::size_t model_bytes = 0;
   std::size_t instances_right = 0;
   std::size_t classes_right = 0;
+  std::size_t right_kept = 0;       // of those whose instance is right, with a score above recognition::least_share
+  std::size_t unknown_refused = 0;  // with one below it, if the view's instance was not learned at all
 };
 
-/// With models as the board reads them, of as many key points a view as fit in so many bytes if all views are learned.
-/// Throws std::runtime_error.
-LeftOut leave_scenes_out(const std::vector<Segment>& segments, std::size_t most_bytes);
+/// With models as the board reads them, of as many key points a view as fit in so many bytes if all views are learned;
+/// `thinned`: of as many as fit in three times the bytes, of which those remain that contribute most. Throws
+/// std::runtime_error.
+LeftOut leave_scenes_out(const std::vector<Segment>& segments, std::size_t most_bytes, bool thinned);
 
 /// With CSHOT-1344 in floats.
 LeftOut leave_scenes_out_with_cshot(const std::vector<Segment>& segments, std::size_t keypoints);

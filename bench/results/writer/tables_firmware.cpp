@@ -121,12 +121,14 @@ std::string small_sensor_table(const Json& json) {
 
 /// Accuracy against bytes.
 std::string left_out_table(const Json& json) {
-  Table table({left_out, "codewords", "model", "instance named rightly", "class"});
+  Table table(
+      {left_out, "codewords", "model", "instance named rightly", "class", "right ones kept", "unknown ones refused"});
   for (const Json& row : json.at("figures")) {
     if (row.at("configuration") != left_out) continue;
     const std::string of = " of " + figure(row, "views");
     table.add({row.at("target").get<std::string>(), figure(row, "codewords"), figure(row, "model_bytes"),
-               figure(row, "right") + of, figure(row, "right_classes") + of});
+               figure(row, "right") + of, figure(row, "right_classes") + of,
+               figure(row, "right_kept") + " of " + figure(row, "right"), figure(row, "unknown_refused") + of});
   }
   return table.markdown();
 }

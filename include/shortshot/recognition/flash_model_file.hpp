@@ -11,13 +11,14 @@
 #include <utility>
 #include <vector>
 
-#include "../base/math.hpp"
 #include "../config.hpp"
 #include "../status.hpp"
 #include "../store/byte_stream.hpp"
+#include "../store/stored_features.hpp"
 #include "codebook.hpp"
 #include "flash_model.hpp"
 #include "hypothesis.hpp"
+#include "model_view.hpp"
 #include "recognizer.hpp"
 #include "telling_numbers.hpp"
 
@@ -38,20 +39,6 @@ inline constexpr FileKind flash_model_file{{flash_model_magic, 8}, flash_model_v
   return unit;
 }
 
-/// In whole units, to the nearest.
-[[nodiscard]] inline std::uint16_t units_of(float coordinate, float unit) noexcept {
-  const float units = std::nearbyint(coordinate / unit);
-  return static_cast<std::uint16_t>(static_cast<std::int16_t>(std::max(-32767.0f, std::min(units, 32767.0f))));
-}
-
-/// Is the order of a row's numbers one? (On a board, an order that is none does no harm.)
-template <class Stored>
-[[nodiscard]] bool is_permutation(const ModelView<Stored>& model) {
-  std::vector<bool> known(model.number_count());
-  for (std::uint32_t i = 0; i < model.number_count(); ++i) known[model.place_of(i)] = true;
-  return std::find(known.begin(), known.end(), false) == known.end();
-}
-
 [[nodiscard]] inline bool fits_flash(const Codebook& codebook) noexcept {
   const auto has_zero = [](const std::string& text) { return text.find(char{0}) != std::string::npos; };
   for (const std::vector<std::string>* const names : {&codebook.classes, &codebook.instances}) {
@@ -61,6 +48,35 @@ template <class Stored>
     }
   }
   return !has_zero(codebook.layout);
+}
+
+/// What stands behind the codewords.
+[[nodiscard]] inline std::string flash_text(const Codebook& codebook) {
+  std::string text = codebook.layout + char{0};
+  for (const std::string& name : codebook.classes) text += name + char{0};
+  for (const std::string& name : codebook.instances) text += name + char{0};
+  return text;
+}
+
+/// How many codewords a model has that is no larger, with all names.
+template <class Stored>
+[[nodiscard]] std::size_t codewords_in_flash(const Codebook& codebook, std::size_t most_bytes) {
+  constexpr auto row_bytes = static_cast<std::uint32_t>(sizeof(Stored));
+  constexpr std::uint32_t numbers = 8 * row_bytes / Storage<Stored>::number_bits;
+  const auto text_bytes = static_cast<std::uint32_t>(flash_text(codebook).size());
+  const FlashLayout empty(row_bytes, numbers, 0, static_cast<std::uint32_t>(codebook.instances.size()), text_bytes);
+  const std::uint64_t most = most_bytes / 4 * 4;
+  if (most < empty.checksum + checksum_bytes) return 0;
+  return static_cast<std::size_t>((most - checksum_bytes - empty.text - text_bytes) /
+                                  (FlashLayout::before_row + row_bytes));
+}
+
+/// Is the order of a row's numbers one? (On a board, an order that is none does no harm.)
+template <class Stored>
+[[nodiscard]] bool is_permutation(const ModelView<Stored>& model) {
+  std::vector<bool> known(model.number_count());
+  for (std::uint32_t i = 0; i < model.number_count(); ++i) known[model.place_of(i)] = true;
+  return std::find(known.begin(), known.end(), false) == known.end();
 }
 
 }  // namespace SHORTSHOT_CODE
@@ -88,50 +104,41 @@ template <class Stored>
   const float unit = detail::unit_of_centers(codebook.codewords);
   if (unit > 1e29f) return Status::bad_rows;
 
-  std::string text = codebook.layout + char{0};
-  for (const std::string& name : codebook.classes) text += name + char{0};
-  for (const std::string& name : codebook.instances) text += name + char{0};
+  constexpr int bits = detail::Storage<Stored>::number_bits;
+  const std::vector<std::uint32_t> order =
+      detail::most_telling_first<bits>(codebook.packed.data(), codebook.codewords.size(), sizeof(Stored),
+                                       [](unsigned a, unsigned b) { return (a - b) * (a - b); });
+  const std::string text = detail::flash_text(codebook);
   const std::uint64_t most = 0xFFFFFFFFu;
   if (codebook.codewords.size() > most || text.size() > most) return Status::bad_rows;
-  constexpr int bits = detail::Storage<Stored>::number_bits;
-  constexpr auto row_bytes = static_cast<std::uint32_t>(sizeof(Stored));
-  const auto codewords = static_cast<std::uint32_t>(codebook.codewords.size());
-  const auto instances = static_cast<std::uint32_t>(codebook.instances.size());
-  const detail::FlashLayout layout(row_bytes, 8 * row_bytes / bits, codewords, instances,
-                                   static_cast<std::uint32_t>(text.size()));
+  detail::FlashHeader header{0,
+                             detail::storage_number<Stored>,
+                             recognizer.options(),
+                             sizeof(Stored),
+                             bits,
+                             static_cast<std::uint32_t>(codebook.codewords.size()),
+                             static_cast<std::uint32_t>(codebook.instances.size()),
+                             static_cast<std::uint32_t>(codebook.classes.size()),
+                             static_cast<std::uint32_t>(text.size()),
+                             unit};
+  const detail::FlashLayout layout = header.layout();
   const std::uint64_t size_bytes = layout.checksum + detail::checksum_bytes;
   if (size_bytes > most) return Status::bad_rows;
 
   detail::ByteWriter to(bytes, detail::flash_model_file, static_cast<std::size_t>(size_bytes));
-  to.number(static_cast<std::uint32_t>(size_bytes));
-  to.number(detail::storage_number<Stored>);
-  to.real(recognizer.options().bandwidth);
-  to.number(recognizer.options().neighbors);
-  to.number(recognizer.options().most);
-  to.number(row_bytes);
-  to.number(codewords);
-  to.number(instances);
-  to.number(static_cast<std::uint32_t>(codebook.classes.size()));
-  to.number(static_cast<std::uint32_t>(text.size()));
-  to.real(unit);
-  to.number(std::uint32_t{bits});
+  header.size_bytes = static_cast<std::uint32_t>(size_bytes);
+  detail::write(to, header);
   for (const std::uint32_t object_class : codebook.class_of) to.number(static_cast<std::uint16_t>(object_class));
-  to.pad(static_cast<std::size_t>(layout.codewords));
-  for (const detail::Codebook::Codeword& codeword : codebook.codewords) {
-    to.number(static_cast<std::uint16_t>(codeword.instance));
-    to.number(detail::units_of(codeword.center.x, unit));
-    to.number(detail::units_of(codeword.center.y, unit));
-    to.number(detail::units_of(codeword.center.z, unit));
-  }
-  const std::vector<std::uint32_t> order = detail::most_telling_first<bits>(
-      codebook.packed.data(), codewords, row_bytes, [](unsigned a, unsigned b) { return (a - b) * (a - b); });
+  to.pad(static_cast<std::size_t>(layout.order));
   for (const std::uint32_t place : order) to.number(static_cast<std::uint16_t>(place));
-  to.pad(static_cast<std::size_t>(layout.rows));
-  for (std::uint32_t i = 0; i < codewords; ++i) {
+  to.pad(static_cast<std::size_t>(layout.codewords));
+  const std::uint8_t* row = codebook.packed.data();
+  for (const detail::Codebook::Codeword& codeword : codebook.codewords) {
+    detail::write_codeword(to, codeword.instance, codeword.center, unit);
     Stored arranged;
-    detail::arrange<bits>(codebook.packed.data() + std::size_t{row_bytes} * i, arranged.bytes, sizeof arranged.bytes,
-                          [&](std::size_t n) { return order[n]; });
+    detail::arrange<bits>(row, arranged.bytes, sizeof arranged.bytes, [&](std::size_t i) { return order[i]; });
     for (const std::uint8_t byte : arranged.bytes) to.number(byte);
+    row += sizeof(Stored);
   }
   for (const char c : text) to.number(static_cast<std::uint8_t>(c));
   to.pad(static_cast<std::size_t>(layout.checksum));
@@ -139,16 +146,14 @@ template <class Stored>
   return Status::ok;
 }
 
-/// The recognizer that gives the hypotheses that a MicroRecognizer gives with the model, bit for bit: of its codewords,
-/// with centers as they were rounded.
+/// The recognizer that gives the hypotheses that a MicroRecognizer gives with the model, also with what was learned on
+/// the spot (LearnedObjects::model()), bit for bit: of its codewords, with centers as they were rounded.
 ///
-/// Statuses: not_a_model, other_version, damaged_model, other_descriptor; `out` has not changed then. Allocates a few
-/// times the bytes at the most.
+/// Statuses: not_trained (no model is open), damaged_model (the order of a row's numbers is none); `out` has not
+/// changed then. Allocates a few times the bytes at the most.
 template <class Stored>
-[[nodiscard]] Status load_from_flash(const std::uint8_t* bytes, std::size_t size_bytes, Recognizer& out) {
-  ModelView<Stored> model;
-  const Status status = model.open(bytes, size_bytes);
-  if (status != Status::ok) return status;
+[[nodiscard]] Status load_from_flash(const ModelView<Stored>& model, Recognizer& out) {
+  if (model.codeword_count() == 0) return Status::not_trained;
   if (!detail::is_permutation(model)) return Status::damaged_model;
   Recognizer loaded(model.options());
   detail::Codebook& codebook = detail::RecognizerAccess::codebook(loaded);
@@ -166,6 +171,14 @@ template <class Stored>
   }
   out = std::move(loaded);
   return Status::ok;
+}
+
+/// The same of the bytes that save_for_flash() has written. Also not_a_model, other_version, other_descriptor.
+template <class Stored>
+[[nodiscard]] Status load_from_flash(const std::uint8_t* bytes, std::size_t size_bytes, Recognizer& out) {
+  ModelView<Stored> model;
+  const Status status = model.open(bytes, size_bytes);
+  return status == Status::ok ? load_from_flash(model, out) : status;
 }
 
 /// The bytes of a model as a C++ header: `alignas(4) constexpr unsigned char NAME[] = {...};`. `name` is a C++

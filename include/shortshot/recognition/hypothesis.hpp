@@ -8,6 +8,7 @@
 #include "../cloud/cloud.hpp"
 #include "../cloud/read.hpp"
 #include "../config.hpp"
+#include "../frame/frame.hpp"
 #include "../status.hpp"
 
 namespace shortshot {
@@ -25,6 +26,14 @@ struct Hypothesis {
   std::uint32_t instance;
   Point center;  ///< where that of the training views is in this view
   float score;   ///< density of the class' votes there: 1 for each that hits it, exp(-d^2 / (2 h^2)) if d meters off
+};
+
+/// A key point as recognizers need it. Trivial type.
+template <class Stored>
+struct StoredKeyPoint {
+  Stored descriptor;
+  Point position;
+  Frame frame;
 };
 
 }  // namespace SHORTSHOT_TYPES

@@ -18,8 +18,8 @@
 #include "../status.hpp"
 #include "../store/storage.hpp"
 #include "climb.hpp"
-#include "flash_model.hpp"
 #include "hypothesis.hpp"
+#include "model_view.hpp"
 #include "vote_centers.hpp"
 #include "vote_density.hpp"
 
@@ -86,22 +86,32 @@ class MicroRecognizer {
   template <class Search, class Place = KeyPoint, class... Own>
   [[nodiscard]] Status add(const CloudView& cloud, const Search& search, const Place& place, const Support& support,
                            const Own&... own) noexcept {
-    const Status status = ready();
-    if (status != Status::ok) return status;
-    Frame frame;
-    Point position;
-    const Status described = detail::describe_key<D>(
+    Status status = ready();
+    StoredKeyPoint<Stored> described;
+    if (status == Status::ok) status = describe(cloud, search, place, support, described, own...);
+    if (status == Status::ok) vote(described.descriptor, described.position, described.frame);
+    return status;
+  }
+
+  /// Describes alone, for LearnedObjects or another add(): with or without a model. Statuses: those of describe_at();
+  /// `out` is all zeros then.
+  template <class Search, class Place = KeyPoint, class... Own>
+  [[nodiscard]] Status describe(const CloudView& cloud, const Search& search, const Place& place,
+                                const Support& support, StoredKeyPoint<Stored>& out, const Own&... own) noexcept {
+    out = {};
+    const Status status = detail::describe_key<D>(
         cloud, search, place, support, workspace_, values_,
         [&](const auto& n, const auto& sources, const Point& at) {
-          position = at;
-          return detail::describe_gathered<D, default_chunk_size>(n, sources, at, support, frame, values_);
+          out.position = at;
+          return detail::describe_gathered<D, default_chunk_size>(n, sources, at, support, out.frame, values_);
         },
         own...);
-    if (described != Status::ok) return described;
-    Stored stored;
-    detail::Storage<Stored>::make(values_, stored);
-    vote(stored, position, frame);
-    return Status::ok;
+    if (status == Status::ok) {
+      detail::Storage<Stored>::make(values_, out.descriptor);
+    } else {
+      out = {};
+    }
+    return status;
   }
 
   /// The same for what was described elsewhere. Also invalid_keypoint and bad_frame.
@@ -112,6 +122,10 @@ class MicroRecognizer {
     if (status == Status::ok) vote(stored, position, frame);
     return status;
   }
+
+  /// Votes that were cast since start(). An object of the model has about this share of them as its score that it is
+  /// seen in; where no hypothesis has an eighth, none of them may be there.
+  [[nodiscard]] std::size_t votes() const noexcept { return votes_count_; }
 
   /// The densest places of all votes so far, at most `Most` and RecognizerOptions::most of the model; returns how many.
   /// See recognize(). More key points may follow.
@@ -146,7 +160,7 @@ class MicroRecognizer {
   /// One vote for each of the codewords that are nearest.
   void vote(const Stored& stored, const Point& position, const Frame& frame) noexcept {
     Activated nearest[MaxActivated];
-    const std::size_t count = find_nearest(model_.arranged(stored), nearest);
+    const std::size_t count = find_nearest(stored, nearest);
     for (std::size_t i = 0; i < count; ++i) {
       const Point center = detail::from_local(model_.center_of(nearest[i].codeword), position, frame);
       const std::uint32_t instance = model_.instance_of(nearest[i].codeword);
@@ -155,31 +169,36 @@ class MicroRecognizer {
   }
 
   /// Nearest first, the first ones of those that are as near; returns how many count.
-  std::size_t find_nearest(const Stored& arranged, Activated (&nearest)[MaxActivated]) const noexcept {
+  std::size_t find_nearest(const Stored& stored, Activated (&nearest)[MaxActivated]) const noexcept {
+    const Stored arranged = model_.arranged(stored);
     for (Activated& none : nearest) none = {0, 0xFFFFFFFFu};
-    for (Activated next{0, 0};; ++next.codeword) {
-      next = first_below(arranged, next.codeword, nearest[MaxActivated - 1].distance);
-      if (next.codeword == model_.codeword_count()) break;
-      Activated moved = next;
-      bool is_nearer = false;  // and then all that come later make room
-      for (Activated& known : nearest) {
-        is_nearer = is_nearer || moved.distance < known.distance;
-        if (is_nearer) std::swap(moved, known);
+    model_.for_each_run([&](std::uint32_t first, const detail::CodewordRun& run) {
+      for (std::uint32_t i = 0; i < run.count; ++i) {
+        Activated next = first_below(run.is_arranged ? arranged : stored, run, i, nearest[MaxActivated - 1].distance);
+        if (next.codeword == run.count) break;
+        i = next.codeword;
+        next.codeword += first;
+        bool is_nearer = false;  // and then all that come later make room
+        for (Activated& known : nearest) {
+          is_nearer = is_nearer || next.distance < known.distance;
+          if (is_nearer) std::swap(next, known);
+        }
       }
-    }
+    });
     const std::uint32_t most = model_.options().neighbors;
     return most < model_.codeword_count() ? most : model_.codeword_count();
   }
 
-  /// The first codeword from one on whose distance is below the limit; the number of codewords if there is none. Not in
+  /// The first codeword of a run from i on whose distance is below the limit; their number if there is none. Not in
   /// line: here most of the time goes, and all registers.
-  [[gnu::noinline]] Activated first_below(const Stored& arranged, std::uint32_t codeword,
-                                          std::uint32_t limit) const noexcept {
-    const std::uint32_t count = model_.codeword_count();
-    const Stored* row = &model_.arranged(codeword);
-    for (; codeword < count; ++codeword, ++row) {
-      const std::uint32_t distance = detail::Storage<Stored>::distance_below(arranged, *row, limit);
-      if (distance < limit) return {codeword, distance};
+  [[gnu::noinline]] static Activated first_below(const Stored& stored, const detail::CodewordRun& run, std::uint32_t i,
+                                                 std::uint32_t limit) noexcept {
+    const std::uint32_t count = run.count;
+    const std::uint8_t* row = run.row(i);
+    for (; i < count; ++i, row += detail::FlashLayout::before_row + sizeof(Stored)) {
+      const auto& codeword = *reinterpret_cast<const Stored*>(row);
+      const std::uint32_t distance = detail::Storage<Stored>::distance_below(stored, codeword, limit);
+      if (distance < limit) return {i, distance};
     }
     return {count, limit};
   }

@@ -15,8 +15,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t checksum_bytes = 8;
 
-[[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size) noexcept {
-  std::uint64_t hash = fnv1a_of_nothing;
+/// `hash`: that of all bytes before these.
+[[nodiscard]] inline std::uint64_t checksum(const std::uint8_t* bytes, std::size_t size,
+                                            std::uint64_t hash = fnv1a_of_nothing) noexcept {
   for (std::size_t i = 0; i < size; ++i) hash = fnv1a(hash, bytes[i]);
   return hash;
 }
