@@ -5,12 +5,23 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <set>
 #include <vector>
 
 #include "fixtures.hpp"
 
 namespace unit {
+
+/// A memory that takes nothing.
+struct WornOut {
+  static constexpr std::size_t unit_bytes = 1;
+  std::uint8_t content[256];
+
+  [[nodiscard]] const std::uint8_t* bytes() const { return content; }
+  [[nodiscard]] std::size_t size_bytes() const { return sizeof content; }
+  static bool write(std::size_t, const std::uint8_t*) { return true; }
+};
 
 /// What matching, poses and recognition can say besides.
 inline std::set<ss::Status> reached_by_recognition(const ss::Frame& frame) {
@@ -39,6 +50,13 @@ inline std::set<ss::Status> reached_by_recognition(const ss::Frame& frame) {
   reached.insert(load(model.size(), "a"));
   model[0] = 0;
   reached.insert(load(model.size(), "a"));
+
+  using Stored = ss::NibbleDescriptor<ss::ShapeColor32>;
+  WornOut memory{};
+  std::memset(memory.content, 0xFF, sizeof memory.content);
+  ss::LearnedObjects<Stored, WornOut> learned;
+  REQUIRE(learned.open(ss::ModelView<Stored>(ss::RecognizerOptions{}), memory) == Status::ok);
+  reached.insert(learned.add({{}, {}, frame}, {}));
   return reached;
 }
 
