@@ -2861,7 +2861,6 @@ template <class Neighbors>
 [[nodiscard]] inline AxisVotes count_votes_against(const Neighbors& n, Radius radius, const float (&x)[3],
                                                    const float (&z)[3]) noexcept {
   using simd::all;
-  using simd::F32;
   simd::I32 against_x{}, against_z{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const NeighborLanes v = load_neighbors(n, i);
