@@ -207,13 +207,16 @@ inline constexpr int version_patch = SHORTSHOT_VERSION_PATCH;
       SHORTSHOT_DIGIT(__RECIPROCAL_MATH__, __ASSOCIATIVE_MATH__, __NO_SIGNED_ZEROS__, __FINITE_MATH_ONLY__),           \
       SHORTSHOT_DIGIT(SHORTSHOT_NO_DISPATCH, SHORTSHOT_SANITIZED, 0, 0))
 
-// Set by us, too: functions, and lambdas, that are inlined for speed, but left to the compiler where it was asked for
-// small code (-Os), and by sanitizers.
+// Set by us, too: functions, and lambdas, that are inlined for speed. Functions are left to the compiler where it was
+// asked for small code (-Os), and both by sanitizers.
 #if defined(__OPTIMIZE_SIZE__) || defined(SHORTSHOT_SANITIZED)
 #define SHORTSHOT_INLINE inline
-#define SHORTSHOT_INLINE_LAMBDA
 #else
 #define SHORTSHOT_INLINE [[gnu::always_inline]] inline
+#endif
+#if defined(SHORTSHOT_SANITIZED)
+#define SHORTSHOT_INLINE_LAMBDA
+#else
 #define SHORTSHOT_INLINE_LAMBDA __attribute__((always_inline))
 #endif
 
@@ -315,6 +318,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 8;
 
+/// Does one instruction bring an integer to 0..2^k - 1?
+inline constexpr bool saturates = false;
+
 /// Does one instruction add to memory, at any constant distance from where a register points?
 inline constexpr bool adds_to_memory = true;
 
@@ -327,6 +333,7 @@ struct I32 {
 struct Mask {
   __m256 v;
 };
+using SignMask = Mask;
 struct I16 {
   std::int16_t v __attribute__((vector_size(32)));
 };
@@ -543,6 +550,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 4;
 
+/// Does one instruction bring an integer to 0..2^k - 1?
+inline constexpr bool saturates = false;
+
 /// Does one instruction add to memory, at any constant distance from where a register points?
 inline constexpr bool adds_to_memory = true;
 
@@ -555,6 +565,7 @@ struct I32 {
 struct Mask {
   __m128 v;
 };
+using SignMask = Mask;
 struct I16 {
   std::int16_t v __attribute__((vector_size(16)));
 };
@@ -752,6 +763,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 4;
 
+/// Does one instruction bring an integer to 0..2^k - 1?
+inline constexpr bool saturates = false;
+
 /// Does one instruction add to memory, at any constant distance from where a register points?
 inline constexpr bool adds_to_memory = false;
 
@@ -764,6 +778,7 @@ struct I32 {
 struct Mask {
   uint32x4_t v;
 };
+using SignMask = Mask;
 struct I16 {
   std::int16_t v __attribute__((vector_size(16)));
 };
@@ -955,6 +970,13 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 1;
 
+/// Does one instruction bring an integer to 0..2^k - 1?
+#if defined(__ARM_FEATURE_SAT)
+inline constexpr bool saturates = true;
+#else
+inline constexpr bool saturates = false;
+#endif
+
 /// Does one instruction add to memory, at any constant distance from where a register points?
 inline constexpr bool adds_to_memory = true;
 
@@ -966,6 +988,12 @@ struct I32 {
 };
 struct Mask {
   bool v;
+};
+/// A mask of signs, -1 where set: what it masks is arithmetic, without branches. (Where there are lanes, all masks
+/// are.)
+struct SignMask {
+  std::int32_t v;
+  operator Mask() const noexcept { return {v != 0}; }  // NOLINT: it is one
 };
 struct I16 {
   std::int16_t v __attribute__((vector_size(4)));
@@ -1044,9 +1072,21 @@ template <class Function>
 /// Towards zero; |a| must stay below 2^31.
 [[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {static_cast<std::int32_t>(a.v)}; }
 
-/// To the nearest integer, ties to even; |a| <= 2^22. Adding 1.5 * 2^23 leaves the integer in the low mantissa bits:
-/// the same bits on every machine, with no call into libm.
-[[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {bits_of({a.v + whole_numbers}).v - 0x4B400000}; }
+/// To the nearest integer, ties to even; |a| <= 2^22. Where no instruction does that, adding 1.5 * 2^23 leaves the
+/// integer in the low mantissa bits: the same bits on every machine, with no call into libm.
+[[nodiscard]] inline I32 round_to_int(F32 a) noexcept {
+#if defined(__ARM_FP)
+  float integer;  // its bits
+  __asm__("vcvtr.s32.f32 %0, %1" : "=t"(integer) : "t"(a.v));
+  return bits_of({integer});
+#elif defined(__riscv_flen)
+  I32 integer;
+  __asm__("fcvt.w.s %0, %1, rne" : "=r"(integer.v) : "f"(a.v));
+  return integer;
+#else
+  return {bits_of({a.v + whole_numbers}).v - 0x4B400000};
+#endif
+}
 
 /// Lanes of integers.
 [[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {value}; }
@@ -1064,15 +1104,17 @@ template <class Function>
 [[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
 /// For numbers from 0 to 2^31 - 1, as is the product.
 [[nodiscard]] inline I32 product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
-[[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {a.v < 0}; }
+[[nodiscard]] inline SignMask is_negative(I32 a) noexcept { return {a.v >> 31}; }
 /// -1 where m, else 1.
-[[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept { return {m.v ? -1 : 1}; }
+[[nodiscard]] inline I32 minus_one_or_one(SignMask m) noexcept { return {m.v | 1}; }
 /// ~a where m, else a.
-[[nodiscard]] inline I32 invert(Mask m, I32 a) noexcept { return {m.v ? ~a.v : a.v}; }
+[[nodiscard]] inline I32 invert(SignMask m, I32 a) noexcept { return {m.v ^ a.v}; }
 /// a where m, else zero.
 [[nodiscard]] inline I32 keep(Mask m, I32 a) noexcept { return {m.v ? a.v : 0}; }
+[[nodiscard]] inline I32 keep(SignMask m, I32 a) noexcept { return {m.v & a.v}; }
 /// Zero where m, else a.
 [[nodiscard]] inline I32 drop(Mask m, I32 a) noexcept { return {m.v ? 0 : a.v}; }
+[[nodiscard]] inline I32 drop(SignMask m, I32 a) noexcept { return {~m.v & a.v}; }
 /// -a where `sign` has its sign bit set, else a.
 [[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept { return {bits_of(sign).v < 0 ? -a.v : a.v}; }
 
@@ -1140,6 +1182,12 @@ template <class Function>
   return (a + all(whole_numbers)) - all(whole_numbers);
 }
 
+/// a * b towards zero; |a * b| must stay below 2^31. (Not unfused: no sum follows. A power of two becomes a part of the
+/// conversion where it can.)
+[[nodiscard, gnu::always_inline]] inline I32 truncated_product(F32 a, F32 b) noexcept {
+  return truncate_to_int({a.v * b.v});
+}
+
 /// The largest lane.
 [[nodiscard, gnu::always_inline]] inline float largest(F32 a) noexcept {
   float values[lanes];
@@ -1194,7 +1242,7 @@ template <int Count, class Function>
 
 /// The same for functions that need no constants: written out for speed, a loop where code shall be small.
 template <int Count, class Function>
-SHORTSHOT_INLINE void each(Function f) noexcept {
+[[gnu::always_inline]] inline void each(Function f) noexcept {
   if constexpr (small_code) {
     for (int i = 0; i < Count; ++i) f(i);
   } else {
@@ -1686,14 +1734,19 @@ inline constexpr float least_normal = 1.17549435e-38f;
 namespace shortshot::extend {
 inline namespace SHORTSHOT_CODE {
 
-/// Element `index` of a channel. memcpy, because a PointCloud2 blob need not be aligned.
-[[nodiscard]] inline Point read(const Float3Channel& channel, std::size_t index) noexcept {
+/// Element `index` of a channel. memcpy, because a PointCloud2 blob need not be aligned. (In place: where each call
+/// deepens the stack.)
+[[nodiscard, gnu::always_inline]] inline Point read_in_place(const Float3Channel& channel, std::size_t index) noexcept {
   const std::size_t offset = index * channel.stride_bytes;
   Point p{};
   std::memcpy(&p.x, channel.x + offset, sizeof(float));
   std::memcpy(&p.y, channel.y + offset, sizeof(float));
   std::memcpy(&p.z, channel.z + offset, sizeof(float));
   return p;
+}
+
+[[nodiscard]] inline Point read(const Float3Channel& channel, std::size_t index) noexcept {
+  return read_in_place(channel, index);
 }
 
 /// Element `index` of a channel of numbers.
@@ -2054,7 +2107,7 @@ struct Neighbor {
 }
 template <class Index>
 [[nodiscard]] inline Neighbor neighbor_at(const CompactNeighborhood<Index>& n, std::uint32_t i) noexcept {
-  return neighbor_from(n.center, read(n.points, n.index[i]), n.index[i]);
+  return neighbor_from(n.center, read_in_place(n.points, n.index[i]), n.index[i]);
 }
 
 /// One register of neighbors. (Of five members, because compilers for ARM move structs of up to four floats to
@@ -2068,6 +2121,10 @@ struct NeighborLanes {
 /// which no pass counts; nothing is read beyond the neighborhood's size.
 template <class Neighbors>
 [[nodiscard]] SHORTSHOT_INLINE NeighborLanes load_neighbors(const Neighbors& n, std::uint32_t i) noexcept {
+  if constexpr (simd::lanes == 1) {
+    const Neighbor v = neighbor_at(n, i);
+    return {simd::all(v.dx), simd::all(v.dy), simd::all(v.dz), simd::all(v.d2), simd::load(&v.index)};
+  }
   float lanes[4][simd::lanes] = {};
   std::uint32_t index[simd::lanes] = {};
   for (std::uint32_t k = 0; k < simd::lanes && k < n.size - i; ++k) {
@@ -2095,7 +2152,7 @@ template <class Neighbors>
   return load_neighbors(n, i).d2;
 }
 [[nodiscard]] SHORTSHOT_INLINE simd::F32 load_d2(const Neighborhood& n, std::uint32_t i) noexcept {
-  return n.size - i >= simd::lanes ? simd::load(n.d2 + i) : load_neighbors(n, i).d2;
+  return simd::lanes == 1 || n.size - i >= simd::lanes ? simd::load(n.d2 + i) : load_neighbors(n, i).d2;
 }
 
 /// How many of the neighbors lie within a radius, the key point and its copies included.
@@ -2225,7 +2282,7 @@ struct PublishedCells {
     if constexpr (!Scale::is_linear) {
       if (k == 0) return truncate_to_int(Scale::position(axis, coordinate));
     }
-    return truncate_to_int(coordinate * extend::simd::all(axis.length()));
+    return truncated_product(coordinate, extend::simd::all(axis.length()));
   }
 };
 
@@ -2277,7 +2334,7 @@ struct ShotCells {
     using namespace extend;
     if (k == 3) {
       const std::int32_t middle = std::int32_t{1} << (axis.bits - 1);
-      return truncate_to_int(coordinate * simd::all(static_cast<float>(axis.cells - 1) * axis.one())) +
+      return truncated_product(coordinate, simd::all(static_cast<float>(axis.cells - 1) * axis.one())) +
              simd::all_int(middle);
     }
     if constexpr (!Scale::is_linear) {
@@ -2360,6 +2417,19 @@ inline namespace SHORTSHOT_CODE {
   return static_cast<float>(1 << fixed_point_exponent(n, 0));
 }
 
+/// The upper half of a * b, towards minus infinity, added to a sum: a step of Horner's scheme. (Cortex-M4 and later
+/// have an instruction for it, which GCC does not know of.)
+[[nodiscard, gnu::always_inline]] inline std::int32_t add_high_product(std::int32_t sum, std::int32_t a,
+                                                                       std::int32_t b) noexcept {
+#if defined(__ARM_FEATURE_DSP) && !defined(__aarch64__)
+  std::int32_t result;
+  __asm__("smmla %0, %1, %2, %3" : "=r"(result) : "r"(a), "r"(b), "r"(sum));
+  return result;
+#else
+  return sum + static_cast<std::int32_t>((std::int64_t{a} * b) >> 32);
+#endif
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 
@@ -2417,7 +2487,7 @@ template <int N>
 
 /// each() for the frames' 3x3 matrices; for others, which fewer wait for, a loop, which is compiled in less time.
 template <int N, int Count, class Function>
-SHORTSHOT_INLINE void repeat(Function f) noexcept {
+[[gnu::always_inline]] inline void repeat(Function f) noexcept {
   if constexpr (N == 3) {
     each<Count>(f);
   } else {
@@ -2721,7 +2791,8 @@ template <class Neighbors>
     if constexpr (simd::lanes == 1) {
       const NeighborLanes v = load_neighbors(n, i);
       d2 = v.d2;
-      member = within(v, radius) & is_elsewhere(v);
+      member = within(v, radius);
+      if (small_code || any(simd::all(0.0f) >= d2)) member = member & is_elsewhere(v);  // seldom
       if (!any(member)) continue;
     } else {
       d2 = load_d2(n, i);
@@ -2769,12 +2840,13 @@ template <class Neighbors>
     const NeighborLanes v = load_neighbors(n, i);
     const F32 at[3] = {v.dx * unit, v.dy * unit, v.dz * unit};
     const F32 w = keep(within(v, radius), (all(1.0f) - simd::sqrt(v.d2) * inverse) * scale);
+    simd::I32* entry = sums;  // of the upper triangle, row by row
     each<3>([&](auto row) SHORTSHOT_INLINE_LAMBDA {
       const F32 weighted = w * at[row];
       each<3>([&](auto column) SHORTSHOT_INLINE_LAMBDA {
         if (column < row) return;
-        simd::I32& entry = sums[row * (5 - row) / 2 + column];  // of the upper triangle, row by row
-        entry = entry + round_to_int(weighted * at[column]);
+        *entry = *entry + round_to_int(weighted * at[column]);
+        ++entry;
       });
     });
   }
@@ -2793,16 +2865,13 @@ template <class Neighbors>
 [[nodiscard]] inline AxisVotes count_votes_against(const Neighbors& n, Radius radius, const float (&x)[3],
                                                    const float (&z)[3]) noexcept {
   using simd::all;
-  using simd::F32;
-  const F32 x_axis[3] = {all(x[0]), all(x[1]), all(x[2])};
-  const F32 z_axis[3] = {all(z[0]), all(z[1]), all(z[2])};
   simd::I32 against_x{}, against_z{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const NeighborLanes v = load_neighbors(n, i);
     const simd::Mask near = within(v, radius);
     const PointLanes offset{v.dx, v.dy, v.dz};
-    against_x = increment((along(x_axis, offset) < all(0.0f)) & near, against_x);
-    against_z = increment((along(z_axis, offset) < all(0.0f)) & near, against_z);
+    against_x = increment((along(x, offset) < all(0.0f)) & near, against_x);
+    against_z = increment((along(z, offset) < all(0.0f)) & near, against_z);
   }
   return {sum(against_x), sum(against_z)};
 }
@@ -3081,8 +3150,9 @@ struct FixedPower {
   [[nodiscard]] std::uint32_t fixed(std::uint32_t bits) const noexcept {
     const auto z = static_cast<std::int32_t>(bits << 8 | 0x80000000u);  // in units of 2^-32
     std::int32_t sum = fit[9];
-    each<9>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sum = fit[8 - k] + upper_half(sum, z); });
-    const auto power = static_cast<std::uint32_t>(upper_half(sum, z) + 1);  // modulo 1; rounded up, as the rest is down
+    each<9>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sum = add_high_product(fit[8 - k], sum, z); });
+    const auto power =
+        static_cast<std::uint32_t>(add_high_product(1, sum, z));  // modulo 1; rounded up, as the rest is down
     return static_cast<std::uint32_t>((std::uint64_t{power} * octave[(bits >> 23) - 120u]) >> 32);
   }
 
@@ -3090,11 +3160,6 @@ struct FixedPower {
   /// the float that is closest, and those are the next one.
   [[nodiscard]] float operator()(float t) const noexcept {
     return unfused(static_cast<float>(fixed(math::bits_of(t))) * (1.0f / 2147483648.0f));
-  }
-
- private:
-  [[nodiscard]] static std::int32_t upper_half(std::int32_t a, std::int32_t b) noexcept {
-    return static_cast<std::int32_t>((std::int64_t{a} * b) >> 32);  // towards minus infinity, as simd::shift_right()
   }
 };
 
@@ -3943,7 +4008,8 @@ template <class Signal, class... Signals>
 //     weight_of_partner()  in units, from the sides (or shares) along all axes
 //     drops_nowhere        does a partner get no vote if the position is nowhere on the axis (BelowZero::nowhere)?
 //
-// The kernel then works out where they go, for two registers of points at once (short_votes.hpp).
+// The kernel then works out where they go, for two registers of points at once (short_votes.hpp) or, where there is one
+// lane, without a list of votes (single_votes.hpp).
 #ifndef SHORTSHOT_DESCRIPTOR_VOTING_HPP
 #define SHORTSHOT_DESCRIPTOR_VOTING_HPP
 
@@ -4024,7 +4090,8 @@ struct Votes {
 template <class Int>
 [[nodiscard]] SHORTSHOT_INLINE Int cell_on(const Axis& axis, Int cell) noexcept {
   if (axis.reaches_end || detail::small_code) cell = simd::small_min(cell, simd::like(cell, axis.cells - 1));
-  return axis.below_zero == BelowZero::never ? cell : simd::small_max(cell, simd::like(cell, 0));
+  const bool saturates = simd::saturates && !detail::small_code && (axis.cells & (axis.cells - 1)) == 0;
+  return axis.below_zero == BelowZero::never && !saturates ? cell : simd::small_max(cell, simd::like(cell, 0));
 }
 
 /// The cell of a position.
@@ -4061,7 +4128,7 @@ template <class Int, class Lower>
 
 /// Where in its cell a position lies.
 struct Side {
-  simd::Mask lower;         ///< its partner is the lower neighbor: it lies below the cell's middle, or on it
+  simd::SignMask lower;     ///< its partner is the lower neighbor: it lies below the cell's middle, or on it
   simd::I32 twice_partner;  ///< as in a Share
 };
 
@@ -4072,7 +4139,7 @@ struct Side {
   using simd::all_int;
   const std::int32_t half = std::int32_t{1} << (axis.bits - 1);
   const simd::I32 side = fraction - all_int(half + 1);
-  const simd::Mask lower = is_negative(side);
+  const simd::SignMask lower = is_negative(side);
   // The partner's share is the distance from the middle; ~side = -side - 1 is what is left up to it.
   simd::I32 distance = invert(lower, side);
   const int finer_bits = axis.bits - unit.bits - 1;
@@ -4394,6 +4461,13 @@ struct PartnersGetOwnShare : std::false_type {};
 template <class Voting>
 struct PartnersGetOwnShare<Voting, std::void_t<decltype(Voting::partners_get_own_share)>>
     : std::bool_constant<Voting::partners_get_own_share> {};
+
+/// Does a rule vote for a cell and its partners, and say so?
+template <class Voting, class = void>
+struct VotesForPartners : std::false_type {};
+template <class Voting>
+struct VotesForPartners<Voting, std::void_t<decltype(Voting::votes_for_partners)>>
+    : std::bool_constant<Voting::votes_for_partners> {};
 
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::detail
@@ -5435,8 +5509,9 @@ template <std::size_t MaxNeighbors, class Index>
 // Neighbors go through in chunks, each chunk in passes over small arrays: locate (local spherical coordinates,
 // to_spherical.hpp), the distances of colors, and then for each part shares among cells (vote_shares.hpp), votes and
 // their addition (accumulate.hpp). Where there are lanes, the votes of most rules are worked out two registers at a
-// time (short_votes.hpp), in place of vote_shares.hpp: the rule, the arithmetic of cells and the addition are the same
-// code. Votes are integers, and so are their sums (fixed_point.hpp).
+// time (short_votes.hpp), in place of vote_shares.hpp; where there is one, each is added as soon as it is known
+// (single_votes.hpp). The rule, the arithmetic of cells and the addition are the same code. Votes are integers, and so
+// are their sums (fixed_point.hpp).
 #ifndef SHORTSHOT_KERNEL_DESCRIBE_HPP
 #define SHORTSHOT_KERNEL_DESCRIBE_HPP
 
@@ -5447,10 +5522,22 @@ template <std::size_t MaxNeighbors, class Index>
 
 #include <numeric>
 
-// shortshot/kernel/to_spherical.hpp: the kernel's first pass. A chunk of neighbors goes from offsets in the cloud's
-// coordinates to spherical coordinates in the frame.
-#ifndef SHORTSHOT_KERNEL_TO_SPHERICAL_HPP
-#define SHORTSHOT_KERNEL_TO_SPHERICAL_HPP
+// shortshot/kernel/single_votes.hpp: the kernel's second pass where there is one lane: each vote is added as soon as it
+// is known. For speed every part has code of its own; where code shall be small all parts share one loop over tables of
+// axes. The same bits.
+#ifndef SHORTSHOT_KERNEL_SINGLE_VOTES_HPP
+#define SHORTSHOT_KERNEL_SINGLE_VOTES_HPP
+
+// shortshot/kernel/vote_shares.hpp: from where a chunk's neighbors lie to their shares among the cells of a part, and
+// their votes.
+#ifndef SHORTSHOT_KERNEL_VOTE_SHARES_HPP
+#define SHORTSHOT_KERNEL_VOTE_SHARES_HPP
+
+// shortshot/kernel/measure_signals.hpp: the values of a descriptor's signals, each in a row of the chunk. Most are
+// measured while neighbors are located, for they may leave a neighbor out; those that look at nothing but the index,
+// after that.
+#ifndef SHORTSHOT_KERNEL_MEASURE_SIGNALS_HPP
+#define SHORTSHOT_KERNEL_MEASURE_SIGNALS_HPP
 
 // shortshot/kernel/chunk.hpp: the neighbors that go through the kernel together.
 #ifndef SHORTSHOT_KERNEL_CHUNK_HPP
@@ -5488,12 +5575,6 @@ struct Chunk {
 }  // namespace shortshot::detail
 
 #endif  // SHORTSHOT_KERNEL_CHUNK_HPP
-
-// shortshot/kernel/measure_signals.hpp: the values of a descriptor's signals, each in a row of the chunk. Most are
-// measured while neighbors are located, for they may leave a neighbor out; those that look at nothing but the index,
-// after that.
-#ifndef SHORTSHOT_KERNEL_MEASURE_SIGNALS_HPP
-#define SHORTSHOT_KERNEL_MEASURE_SIGNALS_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -5614,6 +5695,11 @@ inline void measure_all_by_index(SignalList<Signals...>, const Sources& sources,
 }  // namespace shortshot::detail
 
 #endif  // SHORTSHOT_KERNEL_MEASURE_SIGNALS_HPP
+
+// shortshot/kernel/to_spherical.hpp: the kernel's first pass. A chunk of neighbors goes from offsets in the cloud's
+// coordinates to spherical coordinates in the frame.
+#ifndef SHORTSHOT_KERNEL_TO_SPHERICAL_HPP
+#define SHORTSHOT_KERNEL_TO_SPHERICAL_HPP
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -5737,11 +5823,6 @@ template <class Cells, class Borders, class Neighbors, class Signals, class Chun
 
 #endif  // SHORTSHOT_KERNEL_TO_SPHERICAL_HPP
 
-// shortshot/kernel/vote_shares.hpp: from where a chunk's neighbors lie to their shares among the cells of a part, and
-// their votes.
-#ifndef SHORTSHOT_KERNEL_VOTE_SHARES_HPP
-#define SHORTSHOT_KERNEL_VOTE_SHARES_HPP
-
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
 
@@ -5824,14 +5905,12 @@ template <class Voting, class Part, class Chunk>
 
 #endif  // SHORTSHOT_KERNEL_VOTE_SHARES_HPP
 
+// shortshot/kernel/vote_sums.hpp: the integers that votes are added to.
+#ifndef SHORTSHOT_KERNEL_VOTE_SUMS_HPP
+#define SHORTSHOT_KERNEL_VOTE_SUMS_HPP
+
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
-
-/// Is vote `k` of a neighbor, to its partner along an axis of the grid, of the same weight for all parts on the grid?
-template <class Voting>
-constexpr bool is_shared(int k) noexcept {
-  return PartnersGetOwnShare<Voting>::value && 1 <= k && k <= 3;
-}
 
 /// The integers that votes are added to live in the caller's output array, bit for bit, until they are normalized: no
 /// second array is needed. memcpy is how C++ says that; compilers make one load or store of it, if they are told the
@@ -5853,13 +5932,176 @@ constexpr bool is_shared(int k) noexcept {
 
 inline void add_bits(float* value, std::int32_t weight) noexcept { set_bits(value, sum_at(value, weight)); }
 
+/// What the only lane holds.
+[[nodiscard, gnu::always_inline]] inline std::int32_t integer_in(simd::I32 lane) noexcept {
+  std::int32_t integer = 0;
+  simd::store(&integer, lane);
+  return integer;
+}
+
 /// One vote of the only lane.
-inline void add_vote(float* values, simd::I32 index, simd::I32 weight) noexcept {
-  std::int32_t place = 0;
-  std::int32_t units = 0;
-  simd::store(&place, index);
-  simd::store(&units, weight);
-  add_bits(values + place, units);
+[[gnu::always_inline]] inline void add_vote(float* sum, simd::I32 weight) noexcept {
+  add_bits(sum, integer_in(weight));
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_VOTE_SUMS_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// f(k) for the axes of a part: as many as is known while compiling, or all of `count` where code shall be small.
+template <int Axes, class Function>
+[[gnu::always_inline]] inline void for_each_axis([[maybe_unused]] int count, Function f) noexcept {
+  if constexpr (small_code) {
+    for (int k = 0; k < count; ++k) f(k);
+  } else {
+    unroll<Axes>(f);
+  }
+}
+
+/// From a point's cell to its partner along an axis, in values; 0 where there is none.
+template <class Voting>
+[[nodiscard]] SHORTSHOT_INLINE std::int32_t step_to_partner(const Axis& axis, simd::I32 position, simd::I32 cell,
+                                                            simd::SignMask lower) noexcept {
+  const simd::I32 direction = minus_one_or_one(lower);
+  if (axis.end == Beyond::first_cell) {
+    if (Voting::drops_nowhere && axis.below_zero == BelowZero::nowhere && any(is_negative(position))) return 0;
+    return integer_in(next_around(axis, cell, direction) - cell) * axis.stride;
+  }
+  const bool is_beyond =
+      static_cast<std::uint32_t>(integer_in(cell + direction)) >= static_cast<std::uint32_t>(axis.cells);
+  return is_beyond ? 0 : integer_in(direction) * axis.stride;
+}
+
+/// One vote of a point for the cell it lies in, and one for its partner along each axis, if there is one.
+template <class Voting, class Cells, class Scale, int Axes, class CoordinateAlong>
+[[gnu::always_inline]] inline void vote_for_partners(const Axis (&axes)[4], int count,
+                                                     const CoordinateAlong& coordinate_along, const VoteUnit& unit,
+                                                     float* values) noexcept {
+  constexpr bool begins_below_zero =
+      Scale::below_zero != BelowZero::never || Cells::azimuth_below_zero != BelowZero::never;
+  Side sides[4];
+  simd::I32 positions[4];
+  simd::I32 places[4];
+  std::int32_t steps[4];
+  const auto step_along = [&](auto k) SHORTSHOT_INLINE_LAMBDA {
+    return step_to_partner<Voting>(axes[k], positions[k], places[k], sides[k].lower);
+  };
+  // Without a histogram all of a fourth axis' share is its partner's, which does not exist.
+  sides[3].twice_partner = simd::all_int(2 * unit.one);
+  float* cell = values;
+  for_each_axis<Axes>(count, [&](auto k) SHORTSHOT_INLINE_LAMBDA {
+    if (!begins_below_zero && axes[k].below_zero != BelowZero::never) __builtin_unreachable();  // tables do not say so
+    positions[k] = Cells::template position<Scale>(axes[k], k, coordinate_along(k));
+    places[k] = cell_of(axes[k], positions[k]);
+    sides[k] = Voting::side(axes[k], positions[k], unit);
+    if constexpr (small_code) steps[k] = step_along(k);
+    cell += integer_in(places[k]) * axes[k].stride;
+  });
+  const simd::I32 of_cell = Voting::template weight_of_cell<Axes>(sides, unit);
+  add_vote(cell, of_cell);
+  for_each_axis<Axes>(count, [&](auto k) SHORTSHOT_INLINE_LAMBDA {
+    if constexpr (!small_code) steps[k] = step_along(k);  // just before it is asked for: one comparison does both
+    if (may_be_alone(axes[k]) && steps[k] == 0) return;
+    add_vote(cell + steps[k], Voting::weight_of_partner(k, sides, of_cell, unit));
+  });
+}
+
+/// The votes of neighbor `i` of a chunk for one part, added at once: there is one lane only.
+template <class Voting, class Part, class Chunk>
+SHORTSHOT_INLINE void add_point(const Chunk& chunk, std::uint32_t i, const Coordinates& at, const VoteUnit& unit,
+                                float* values) noexcept {
+  if constexpr (VotesForPartners<Voting>::value) {
+    const auto coordinate_along = [&](auto k) SHORTSHOT_INLINE_LAMBDA {
+      if constexpr (k == 3) {
+        return coordinate_at<Part, 3>(chunk, i);
+      } else {
+        return at.of[k];
+      }
+    };
+    vote_for_partners<Voting, typename Part::Cells, typename Part::Scale, Part::axis_count>(
+        Part::template axes<Part::values>, Part::axis_count, coordinate_along, unit, values);
+  } else {
+    constexpr int count = votes_of<Voting, Part>;
+    PointShares shares = grid_shares<Voting, Part, Part::values>(at, unit);
+    const Votes<count> votes = votes_at<Voting, Part>(chunk, i, shares, unit);
+    each<count>([&](auto k)
+                    SHORTSHOT_INLINE_LAMBDA { add_vote(values + integer_in(votes.index[k]), votes.weight[k]); });
+  }
+}
+
+/// All parts in one loop: what they have in common is worked out once.
+template <class Voting, class... Parts, std::size_t... I, class Chunk>
+[[gnu::noinline]] inline void add_points(Descriptor<Voting, Parts...>, std::index_sequence<I...>, const Chunk& chunk,
+                                         VoteUnit unit, float* out) noexcept {
+  using D = Descriptor<Voting, Parts...>;
+  const std::uint32_t size = chunk.size;
+  for (std::uint32_t i = 0; i < size; ++i) {
+    const Coordinates at = coordinates_at(chunk, i);
+    (add_point<Voting, Parts>(chunk, i, at, unit, out + D::offset(I)), ...);
+  }
+}
+
+/// The row of a chunk that has the signal of a part; 0 if the part has no histogram.
+template <class Part, class Chunk>
+constexpr int signal_row() noexcept {
+  if constexpr (Part::has_histogram) {
+    return Chunk::template row_of<typename Part::Signal>;
+  } else {
+    return 0;
+  }
+}
+
+/// The signal of a part if it is a signed one.
+template <class Part>
+using SignedOf = std::conditional_t<Part::Signal::is_signed, typename Part::Signal, void>;
+
+/// The same of one part where code shall be small: this function for all parts with these rules. `signal` is the row of
+/// the part's signal, or 0 if it has no histogram.
+template <class Voting, class Cells, class Scale, class Signed, class Chunk>
+[[gnu::noinline]] inline void add_points_of_part(const Chunk& chunk, const Axis (&axes)[4], int signal,
+                                                 const VoteUnit& unit, float* values) noexcept {
+  for (std::uint32_t i = 0; i < chunk.size; ++i) {
+    const auto coordinate_along = [&](int k) SHORTSHOT_INLINE_LAMBDA {
+      const simd::F32 coordinate = simd::load(chunk.row(k == 3 ? signal : k, i));
+      if constexpr (!std::is_void<Signed>::value) {
+        if (k == 3) return place_in_histogram<Signed>(coordinate);
+      }
+      return coordinate;
+    };
+    const int count = signal == 0 ? 3 : 4;
+    if constexpr (VotesForPartners<Voting>::value) {
+      vote_for_partners<Voting, Cells, Scale, 4>(axes, count, coordinate_along, unit, values);
+    } else {
+      Share shares[4];
+      // Without a histogram all of a fourth axis' share is its partner's, which does not exist.
+      shares[3] = {simd::all_int(0), simd::all_int(0), simd::all_int(2 * unit.one)};
+      for (int k = 0; k < count; ++k) {
+        shares[k] = share_along_axis<Voting, Cells, Scale>(axes[k], k, coordinate_along(k), unit);
+      }
+      const auto votes = Voting::template combine<4>(axes, shares, unit);
+      for (int k = 0; k < Voting::template votes<4>; ++k) {
+        add_vote(values + integer_in(votes.index[k]), votes.weight[k]);
+      }
+    }
+  }
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+#endif  // SHORTSHOT_KERNEL_SINGLE_VOTES_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Is vote `k` of a neighbor, to its partner along an axis of the grid, of the same weight for all parts on the grid?
+template <class Voting>
+constexpr bool is_shared(int k) noexcept {
+  return PartnersGetOwnShare<Voting>::value && 1 <= k && k <= 3;
 }
 
 /// The votes of a chunk for one part, lane-wise: `count` arrays of indices, and as many of weights. Votes go through
@@ -6008,63 +6250,6 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& fi
     }
   }
   scatter<Voting, Chunk::room, true>(size, out, first, others...);
-}
-
-/// The votes of neighbor `i` of a chunk for one part, added at once: there is one lane only.
-template <class Voting, class Part, class Chunk>
-SHORTSHOT_INLINE void add_point(const Chunk& chunk, std::uint32_t i, const Coordinates& at, const VoteUnit& unit,
-                                float* values) noexcept {
-  constexpr int count = votes_of<Voting, Part>;
-  PointShares shares = grid_shares<Voting, Part, Part::values>(at, unit);
-  const Votes<count> votes = votes_at<Voting, Part>(chunk, i, shares, unit);
-  each<count>([&](auto k) SHORTSHOT_INLINE_LAMBDA { add_vote(values, votes.index[k], votes.weight[k]); });
-}
-
-/// All parts in one loop: what they have in common is worked out once.
-template <class Voting, class... Parts, std::size_t... I, class Chunk>
-[[gnu::noinline]] inline void add_points(Descriptor<Voting, Parts...>, std::index_sequence<I...>, const Chunk& chunk,
-                                         const VoteUnit& unit, float* out) noexcept {
-  using D = Descriptor<Voting, Parts...>;
-  const std::uint32_t size = chunk.size;
-  for (std::uint32_t i = 0; i < size; ++i) {
-    const Coordinates at = coordinates_at(chunk, i);
-    (add_point<Voting, Parts>(chunk, i, at, unit, out + D::offset(I)), ...);
-  }
-}
-
-/// The row of a chunk that has the signal of a part; 0 if the part has no histogram.
-template <class Part, class Chunk>
-constexpr int signal_row() noexcept {
-  if constexpr (Part::has_histogram) {
-    return Chunk::template row_of<typename Part::Signal>;
-  } else {
-    return 0;
-  }
-}
-
-/// The signal of a part if it is a signed one.
-template <class Part>
-using SignedOf = std::conditional_t<Part::Signal::is_signed, typename Part::Signal, void>;
-
-/// The same of one part where code shall be small: this function for all parts with these rules. `signal` is the row of
-/// the part's signal, or 0 if it has no histogram.
-template <class Voting, class Cells, class Scale, class Signed, class Chunk>
-[[gnu::noinline]] inline void add_points_of_part(const Chunk& chunk, const Axis (&axes)[4], int signal,
-                                                 const VoteUnit& unit, float* values) noexcept {
-  for (std::uint32_t i = 0; i < chunk.size; ++i) {
-    Share shares[4];
-    // Without a histogram all of a fourth axis' share is its partner's, which does not exist.
-    shares[3] = {simd::all_int(0), simd::all_int(0), simd::all_int(2 * unit.one)};
-    for (int k = 0; k < (signal == 0 ? 3 : 4); ++k) {
-      simd::F32 coordinate = simd::load(chunk.row(k == 3 ? signal : k, i));
-      if constexpr (!std::is_void<Signed>::value) {
-        if (k == 3) coordinate = place_in_histogram<Signed>(coordinate);
-      }
-      shares[k] = share_along_axis<Voting, Cells, Scale>(axes[k], k, coordinate, unit);
-    }
-    const auto votes = Voting::template combine<4>(axes, shares, unit);
-    for (int k = 0; k < Voting::template votes<4>; ++k) add_vote(values, votes.index[k], votes.weight[k]);
-  }
 }
 
 template <class Voting, class... Parts, std::size_t... I, class Chunk>
@@ -6559,7 +6744,7 @@ struct SoftShares {
   /// Votes in units: those of the cell, and for means times the value of signal `K` - 1.
   template <int Cell, int K = 0>
   [[nodiscard]] SHORTSHOT_INLINE simd::I32 votes() const noexcept {
-    if constexpr (K > 0) return truncate_to_int(weight[Cell] * measured[K - 1]);
+    if constexpr (K > 0) return truncated_product(weight[Cell], measured[K - 1]);
     return truncate_to_int(weight[Cell]);
   }
 };
@@ -6605,7 +6790,6 @@ struct CellVotes : SoftShares<D, I, Part> {
   }
 
  private:
-  static void add_vote(float* sum, simd::I32 votes) noexcept { detail::add_vote(sum, simd::all_int(0), votes); }
   /// Is cell `k` the upper one around?
   static constexpr bool is_around(int k) noexcept {
     bool around = false;
@@ -6712,10 +6896,10 @@ inline void add_by_table(const SoftTable& part, const simd::F32* coordinates, fl
   }
   float* const sums = part.numbers > 0 ? weights + part.weights : values + part.values;
   for (int k = 0; k < cells; ++k) {
-    add_vote(sums, simd::all_int(place[k]), truncate_to_int(weight[k]));
+    add_vote(sums + place[k], truncate_to_int(weight[k]));
     for (int n = 0; n < part.numbers; ++n) {
-      add_vote(values + part.values + n, simd::all_int(place[k] * part.numbers),
-               truncate_to_int(weight[k] * coordinates[part.first + n]));
+      add_vote(values + part.values + n + place[k] * part.numbers,
+               truncated_product(weight[k], coordinates[part.first + n]));
     }
   }
 }
@@ -6844,13 +7028,6 @@ struct ShortVotes : VoteRows<Voting, Part, std::int16_t, ChunkSize> {
     });
   }
 };
-
-/// Does a rule vote for a cell and its partners, and say so?
-template <class Voting, class = void>
-struct VotesForPartners : std::false_type {};
-template <class Voting>
-struct VotesForPartners<Voting, std::void_t<decltype(Voting::votes_for_partners)>>
-    : std::bool_constant<Voting::votes_for_partners> {};
 
 /// Room behind the end of all sums, for votes that go nowhere and for registers.
 template <class... Parts>
@@ -11708,6 +11885,7 @@ using namespace extend;
 #undef SHORTSHOT_KERNEL_MEAN_COLOR_HPP
 #undef SHORTSHOT_KERNEL_MEASURE_SIGNALS_HPP
 #undef SHORTSHOT_KERNEL_SHORT_VOTES_HPP
+#undef SHORTSHOT_KERNEL_SINGLE_VOTES_HPP
 #undef SHORTSHOT_KERNEL_SOFT_CELLS_HPP
 #undef SHORTSHOT_KERNEL_SOFT_LAYOUT_HPP
 #undef SHORTSHOT_KERNEL_SOFT_SHARES_HPP
@@ -11715,6 +11893,7 @@ using namespace extend;
 #undef SHORTSHOT_KERNEL_SUPPORT_HPP
 #undef SHORTSHOT_KERNEL_TO_SPHERICAL_HPP
 #undef SHORTSHOT_KERNEL_VOTE_SHARES_HPP
+#undef SHORTSHOT_KERNEL_VOTE_SUMS_HPP
 #undef SHORTSHOT_SEARCH_CELL_BOX_HPP
 #undef SHORTSHOT_SEARCH_CELL_SORT_HPP
 #undef SHORTSHOT_SEARCH_NEIGHBORHOOD_HPP

@@ -86,13 +86,16 @@
       SHORTSHOT_DIGIT(__RECIPROCAL_MATH__, __ASSOCIATIVE_MATH__, __NO_SIGNED_ZEROS__, __FINITE_MATH_ONLY__),           \
       SHORTSHOT_DIGIT(SHORTSHOT_NO_DISPATCH, SHORTSHOT_SANITIZED, 0, 0))
 
-// Set by us, too: functions, and lambdas, that are inlined for speed, but left to the compiler where it was asked for
-// small code (-Os), and by sanitizers.
+// Set by us, too: functions, and lambdas, that are inlined for speed. Functions are left to the compiler where it was
+// asked for small code (-Os), and both by sanitizers.
 #if defined(__OPTIMIZE_SIZE__) || defined(SHORTSHOT_SANITIZED)
 #define SHORTSHOT_INLINE inline
-#define SHORTSHOT_INLINE_LAMBDA
 #else
 #define SHORTSHOT_INLINE [[gnu::always_inline]] inline
+#endif
+#if defined(SHORTSHOT_SANITIZED)
+#define SHORTSHOT_INLINE_LAMBDA
+#else
 #define SHORTSHOT_INLINE_LAMBDA __attribute__((always_inline))
 #endif
 

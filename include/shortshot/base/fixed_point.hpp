@@ -25,6 +25,19 @@ inline namespace SHORTSHOT_CODE {
   return static_cast<float>(1 << fixed_point_exponent(n, 0));
 }
 
+/// The upper half of a * b, towards minus infinity, added to a sum: a step of Horner's scheme. (Cortex-M4 and later
+/// have an instruction for it, which GCC does not know of.)
+[[nodiscard, gnu::always_inline]] inline std::int32_t add_high_product(std::int32_t sum, std::int32_t a,
+                                                                       std::int32_t b) noexcept {
+#if defined(__ARM_FEATURE_DSP) && !defined(__aarch64__)
+  std::int32_t result;
+  __asm__("smmla %0, %1, %2, %3" : "=r"(result) : "r"(a), "r"(b), "r"(sum));
+  return result;
+#else
+  return sum + static_cast<std::int32_t>((std::int64_t{a} * b) >> 32);
+#endif
+}
+
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot::detail
 

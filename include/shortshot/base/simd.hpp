@@ -37,6 +37,12 @@ template <class Function>
   return (a + all(whole_numbers)) - all(whole_numbers);
 }
 
+/// a * b towards zero; |a * b| must stay below 2^31. (Not unfused: no sum follows. A power of two becomes a part of the
+/// conversion where it can.)
+[[nodiscard, gnu::always_inline]] inline I32 truncated_product(F32 a, F32 b) noexcept {
+  return truncate_to_int({a.v * b.v});
+}
+
 /// The largest lane.
 [[nodiscard, gnu::always_inline]] inline float largest(F32 a) noexcept {
   float values[lanes];

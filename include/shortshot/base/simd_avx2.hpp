@@ -16,6 +16,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 8;
 
+/// Does one instruction bring an integer to 0..2^k - 1?
+inline constexpr bool saturates = false;
+
 /// Does one instruction add to memory, at any constant distance from where a register points?
 inline constexpr bool adds_to_memory = true;
 
@@ -28,6 +31,7 @@ struct I32 {
 struct Mask {
   __m256 v;
 };
+using SignMask = Mask;
 struct I16 {
   std::int16_t v __attribute__((vector_size(32)));
 };

@@ -17,6 +17,9 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 4;
 
+/// Does one instruction bring an integer to 0..2^k - 1?
+inline constexpr bool saturates = false;
+
 /// Does one instruction add to memory, at any constant distance from where a register points?
 inline constexpr bool adds_to_memory = false;
 
@@ -29,6 +32,7 @@ struct I32 {
 struct Mask {
   uint32x4_t v;
 };
+using SignMask = Mask;
 struct I16 {
   std::int16_t v __attribute__((vector_size(16)));
 };

@@ -16,6 +16,13 @@ inline namespace SHORTSHOT_CODE {
 
 inline constexpr std::size_t lanes = 1;
 
+/// Does one instruction bring an integer to 0..2^k - 1?
+#if defined(__ARM_FEATURE_SAT)
+inline constexpr bool saturates = true;
+#else
+inline constexpr bool saturates = false;
+#endif
+
 /// Does one instruction add to memory, at any constant distance from where a register points?
 inline constexpr bool adds_to_memory = true;
 
@@ -27,6 +34,12 @@ struct I32 {
 };
 struct Mask {
   bool v;
+};
+/// A mask of signs, -1 where set: what it masks is arithmetic, without branches. (Where there are lanes, all masks
+/// are.)
+struct SignMask {
+  std::int32_t v;
+  operator Mask() const noexcept { return {v != 0}; }  // NOLINT: it is one
 };
 struct I16 {
   std::int16_t v __attribute__((vector_size(4)));
@@ -105,9 +118,21 @@ template <class Function>
 /// Towards zero; |a| must stay below 2^31.
 [[nodiscard]] inline I32 truncate_to_int(F32 a) noexcept { return {static_cast<std::int32_t>(a.v)}; }
 
-/// To the nearest integer, ties to even; |a| <= 2^22. Adding 1.5 * 2^23 leaves the integer in the low mantissa bits:
-/// the same bits on every machine, with no call into libm.
-[[nodiscard]] inline I32 round_to_int(F32 a) noexcept { return {bits_of({a.v + whole_numbers}).v - 0x4B400000}; }
+/// To the nearest integer, ties to even; |a| <= 2^22. Where no instruction does that, adding 1.5 * 2^23 leaves the
+/// integer in the low mantissa bits: the same bits on every machine, with no call into libm.
+[[nodiscard]] inline I32 round_to_int(F32 a) noexcept {
+#if defined(__ARM_FP)
+  float integer;  // its bits
+  __asm__("vcvtr.s32.f32 %0, %1" : "=t"(integer) : "t"(a.v));
+  return bits_of({integer});
+#elif defined(__riscv_flen)
+  I32 integer;
+  __asm__("fcvt.w.s %0, %1, rne" : "=r"(integer.v) : "f"(a.v));
+  return integer;
+#else
+  return {bits_of({a.v + whole_numbers}).v - 0x4B400000};
+#endif
+}
 
 /// Lanes of integers.
 [[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {value}; }
@@ -125,15 +150,17 @@ template <class Function>
 [[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
 /// For numbers from 0 to 2^31 - 1, as is the product.
 [[nodiscard]] inline I32 product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
-[[nodiscard]] inline Mask is_negative(I32 a) noexcept { return {a.v < 0}; }
+[[nodiscard]] inline SignMask is_negative(I32 a) noexcept { return {a.v >> 31}; }
 /// -1 where m, else 1.
-[[nodiscard]] inline I32 minus_one_or_one(Mask m) noexcept { return {m.v ? -1 : 1}; }
+[[nodiscard]] inline I32 minus_one_or_one(SignMask m) noexcept { return {m.v | 1}; }
 /// ~a where m, else a.
-[[nodiscard]] inline I32 invert(Mask m, I32 a) noexcept { return {m.v ? ~a.v : a.v}; }
+[[nodiscard]] inline I32 invert(SignMask m, I32 a) noexcept { return {m.v ^ a.v}; }
 /// a where m, else zero.
 [[nodiscard]] inline I32 keep(Mask m, I32 a) noexcept { return {m.v ? a.v : 0}; }
+[[nodiscard]] inline I32 keep(SignMask m, I32 a) noexcept { return {m.v & a.v}; }
 /// Zero where m, else a.
 [[nodiscard]] inline I32 drop(Mask m, I32 a) noexcept { return {m.v ? 0 : a.v}; }
+[[nodiscard]] inline I32 drop(SignMask m, I32 a) noexcept { return {~m.v & a.v}; }
 /// -a where `sign` has its sign bit set, else a.
 [[nodiscard]] inline F32 flip_sign(F32 a, F32 sign) noexcept { return {bits_of(sign).v < 0 ? -a.v : a.v}; }
 

@@ -56,7 +56,7 @@ template <int N>
 
 /// each() for the frames' 3x3 matrices; for others, which fewer wait for, a loop, which is compiled in less time.
 template <int N, int Count, class Function>
-SHORTSHOT_INLINE void repeat(Function f) noexcept {
+[[gnu::always_inline]] inline void repeat(Function f) noexcept {
   if constexpr (N == 3) {
     each<Count>(f);
   } else {

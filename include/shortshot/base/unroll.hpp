@@ -31,7 +31,7 @@ template <int Count, class Function>
 
 /// The same for functions that need no constants: written out for speed, a loop where code shall be small.
 template <int Count, class Function>
-SHORTSHOT_INLINE void each(Function f) noexcept {
+[[gnu::always_inline]] inline void each(Function f) noexcept {
   if constexpr (small_code) {
     for (int i = 0; i < Count; ++i) f(i);
   } else {

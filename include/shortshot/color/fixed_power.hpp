@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "../base/fixed_point.hpp"
 #include "../base/math.hpp"
 #include "../base/unfused.hpp"
 #include "../base/unroll.hpp"
@@ -23,8 +24,9 @@ struct FixedPower {
   [[nodiscard]] std::uint32_t fixed(std::uint32_t bits) const noexcept {
     const auto z = static_cast<std::int32_t>(bits << 8 | 0x80000000u);  // in units of 2^-32
     std::int32_t sum = fit[9];
-    each<9>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sum = fit[8 - k] + upper_half(sum, z); });
-    const auto power = static_cast<std::uint32_t>(upper_half(sum, z) + 1);  // modulo 1; rounded up, as the rest is down
+    each<9>([&](auto k) SHORTSHOT_INLINE_LAMBDA { sum = add_high_product(fit[8 - k], sum, z); });
+    const auto power =
+        static_cast<std::uint32_t>(add_high_product(1, sum, z));  // modulo 1; rounded up, as the rest is down
     return static_cast<std::uint32_t>((std::uint64_t{power} * octave[(bits >> 23) - 120u]) >> 32);
   }
 
@@ -32,11 +34,6 @@ struct FixedPower {
   /// the float that is closest, and those are the next one.
   [[nodiscard]] float operator()(float t) const noexcept {
     return unfused(static_cast<float>(fixed(math::bits_of(t))) * (1.0f / 2147483648.0f));
-  }
-
- private:
-  [[nodiscard]] static std::int32_t upper_half(std::int32_t a, std::int32_t b) noexcept {
-    return static_cast<std::int32_t>((std::int64_t{a} * b) >> 32);  // towards minus infinity, as simd::shift_right()
   }
 };
 

@@ -61,6 +61,13 @@ template <class Voting>
 struct PartnersGetOwnShare<Voting, std::void_t<decltype(Voting::partners_get_own_share)>>
     : std::bool_constant<Voting::partners_get_own_share> {};
 
+/// Does a rule vote for a cell and its partners, and say so?
+template <class Voting, class = void>
+struct VotesForPartners : std::false_type {};
+template <class Voting>
+struct VotesForPartners<Voting, std::void_t<decltype(Voting::votes_for_partners)>>
+    : std::bool_constant<Voting::votes_for_partners> {};
+
 }  // namespace SHORTSHOT_TYPES
 }  // namespace shortshot::detail
 

@@ -81,7 +81,7 @@ struct PublishedCells {
     if constexpr (!Scale::is_linear) {
       if (k == 0) return truncate_to_int(Scale::position(axis, coordinate));
     }
-    return truncate_to_int(coordinate * extend::simd::all(axis.length()));
+    return truncated_product(coordinate, extend::simd::all(axis.length()));
   }
 };
 
@@ -133,7 +133,7 @@ struct ShotCells {
     using namespace extend;
     if (k == 3) {
       const std::int32_t middle = std::int32_t{1} << (axis.bits - 1);
-      return truncate_to_int(coordinate * simd::all(static_cast<float>(axis.cells - 1) * axis.one())) +
+      return truncated_product(coordinate, simd::all(static_cast<float>(axis.cells - 1) * axis.one())) +
              simd::all_int(middle);
     }
     if constexpr (!Scale::is_linear) {

@@ -50,7 +50,8 @@ struct Votes {
 template <class Int>
 [[nodiscard]] SHORTSHOT_INLINE Int cell_on(const Axis& axis, Int cell) noexcept {
   if (axis.reaches_end || detail::small_code) cell = simd::small_min(cell, simd::like(cell, axis.cells - 1));
-  return axis.below_zero == BelowZero::never ? cell : simd::small_max(cell, simd::like(cell, 0));
+  const bool saturates = simd::saturates && !detail::small_code && (axis.cells & (axis.cells - 1)) == 0;
+  return axis.below_zero == BelowZero::never && !saturates ? cell : simd::small_max(cell, simd::like(cell, 0));
 }
 
 /// The cell of a position.
@@ -87,7 +88,7 @@ template <class Int, class Lower>
 
 /// Where in its cell a position lies.
 struct Side {
-  simd::Mask lower;         ///< its partner is the lower neighbor: it lies below the cell's middle, or on it
+  simd::SignMask lower;     ///< its partner is the lower neighbor: it lies below the cell's middle, or on it
   simd::I32 twice_partner;  ///< as in a Share
 };
 
@@ -98,7 +99,7 @@ struct Side {
   using simd::all_int;
   const std::int32_t half = std::int32_t{1} << (axis.bits - 1);
   const simd::I32 side = fraction - all_int(half + 1);
-  const simd::Mask lower = is_negative(side);
+  const simd::SignMask lower = is_negative(side);
   // The partner's share is the distance from the middle; ~side = -side - 1 is what is left up to it.
   simd::I32 distance = invert(lower, side);
   const int finer_bits = axis.bits - unit.bits - 1;

@@ -14,7 +14,8 @@
 //     weight_of_partner()  in units, from the sides (or shares) along all axes
 //     drops_nowhere        does a partner get no vote if the position is nowhere on the axis (BelowZero::nowhere)?
 //
-// The kernel then works out where they go, for two registers of points at once (short_votes.hpp).
+// The kernel then works out where they go, for two registers of points at once (short_votes.hpp) or, where there is one
+// lane, without a list of votes (single_votes.hpp).
 #ifndef SHORTSHOT_DESCRIPTOR_VOTING_HPP
 #define SHORTSHOT_DESCRIPTOR_VOTING_HPP
 

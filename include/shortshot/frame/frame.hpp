@@ -96,7 +96,8 @@ template <class Neighbors>
     if constexpr (simd::lanes == 1) {
       const NeighborLanes v = load_neighbors(n, i);
       d2 = v.d2;
-      member = within(v, radius) & is_elsewhere(v);
+      member = within(v, radius);
+      if (small_code || any(simd::all(0.0f) >= d2)) member = member & is_elsewhere(v);  // seldom
       if (!any(member)) continue;
     } else {
       d2 = load_d2(n, i);
@@ -144,12 +145,13 @@ template <class Neighbors>
     const NeighborLanes v = load_neighbors(n, i);
     const F32 at[3] = {v.dx * unit, v.dy * unit, v.dz * unit};
     const F32 w = keep(within(v, radius), (all(1.0f) - simd::sqrt(v.d2) * inverse) * scale);
+    simd::I32* entry = sums;  // of the upper triangle, row by row
     each<3>([&](auto row) SHORTSHOT_INLINE_LAMBDA {
       const F32 weighted = w * at[row];
       each<3>([&](auto column) SHORTSHOT_INLINE_LAMBDA {
         if (column < row) return;
-        simd::I32& entry = sums[row * (5 - row) / 2 + column];  // of the upper triangle, row by row
-        entry = entry + round_to_int(weighted * at[column]);
+        *entry = *entry + round_to_int(weighted * at[column]);
+        ++entry;
       });
     });
   }
@@ -168,16 +170,13 @@ template <class Neighbors>
 [[nodiscard]] inline AxisVotes count_votes_against(const Neighbors& n, Radius radius, const float (&x)[3],
                                                    const float (&z)[3]) noexcept {
   using simd::all;
-  using simd::F32;
-  const F32 x_axis[3] = {all(x[0]), all(x[1]), all(x[2])};
-  const F32 z_axis[3] = {all(z[0]), all(z[1]), all(z[2])};
   simd::I32 against_x{}, against_z{};
   for (std::uint32_t i = 0; i < n.size; i += simd::lanes) {
     const NeighborLanes v = load_neighbors(n, i);
     const simd::Mask near = within(v, radius);
     const PointLanes offset{v.dx, v.dy, v.dz};
-    against_x = increment((along(x_axis, offset) < all(0.0f)) & near, against_x);
-    against_z = increment((along(z_axis, offset) < all(0.0f)) & near, against_z);
+    against_x = increment((along(x, offset) < all(0.0f)) & near, against_x);
+    against_z = increment((along(z, offset) < all(0.0f)) & near, against_z);
   }
   return {sum(against_x), sum(against_z)};
 }

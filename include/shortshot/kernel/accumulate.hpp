@@ -5,20 +5,20 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <numeric>
 #include <type_traits>
 #include <utility>
 
 #include "../base/simd.hpp"
 #include "../base/unroll.hpp"
-#include "../cloud/read.hpp"
 #include "../config.hpp"
 #include "../descriptor/concepts.hpp"
 #include "../descriptor/descriptor.hpp"
 #include "../descriptor/voting.hpp"
+#include "single_votes.hpp"
 #include "to_spherical.hpp"
 #include "vote_shares.hpp"
+#include "vote_sums.hpp"
 
 namespace shortshot::detail {
 inline namespace SHORTSHOT_CODE {
@@ -27,35 +27,6 @@ inline namespace SHORTSHOT_CODE {
 template <class Voting>
 constexpr bool is_shared(int k) noexcept {
   return PartnersGetOwnShare<Voting>::value && 1 <= k && k <= 3;
-}
-
-/// The integers that votes are added to live in the caller's output array, bit for bit, until they are normalized: no
-/// second array is needed. memcpy is how C++ says that; compilers make one load or store of it, if they are told the
-/// alignment where CPUs insist on it.
-[[nodiscard, gnu::always_inline]] inline std::int32_t integer_at(const float* value) noexcept {
-  std::int32_t integer = 0;
-  std::memcpy(&integer, __builtin_assume_aligned(value, alignof(float)), sizeof integer);
-  return integer;
-}
-
-[[gnu::always_inline]] inline void set_bits(float* value, std::int32_t integer) noexcept {
-  std::memcpy(__builtin_assume_aligned(value, alignof(float)), &integer, sizeof integer);
-}
-
-/// What is at a place, and a weight more. (Modulo 2^32: a place for votes that go nowhere takes any number of them.)
-[[nodiscard, gnu::always_inline]] inline std::int32_t sum_at(const float* value, std::int32_t weight) noexcept {
-  return static_cast<std::int32_t>(static_cast<std::uint32_t>(integer_at(value)) + static_cast<std::uint32_t>(weight));
-}
-
-inline void add_bits(float* value, std::int32_t weight) noexcept { set_bits(value, sum_at(value, weight)); }
-
-/// One vote of the only lane.
-inline void add_vote(float* values, simd::I32 index, simd::I32 weight) noexcept {
-  std::int32_t place = 0;
-  std::int32_t units = 0;
-  simd::store(&place, index);
-  simd::store(&units, weight);
-  add_bits(values + place, units);
 }
 
 /// The votes of a chunk for one part, lane-wise: `count` arrays of indices, and as many of weights. Votes go through
@@ -204,63 +175,6 @@ inline void accumulate(const Chunk& chunk, VoteUnit unit, float* out, First&& fi
     }
   }
   scatter<Voting, Chunk::room, true>(size, out, first, others...);
-}
-
-/// The votes of neighbor `i` of a chunk for one part, added at once: there is one lane only.
-template <class Voting, class Part, class Chunk>
-SHORTSHOT_INLINE void add_point(const Chunk& chunk, std::uint32_t i, const Coordinates& at, const VoteUnit& unit,
-                                float* values) noexcept {
-  constexpr int count = votes_of<Voting, Part>;
-  PointShares shares = grid_shares<Voting, Part, Part::values>(at, unit);
-  const Votes<count> votes = votes_at<Voting, Part>(chunk, i, shares, unit);
-  each<count>([&](auto k) SHORTSHOT_INLINE_LAMBDA { add_vote(values, votes.index[k], votes.weight[k]); });
-}
-
-/// All parts in one loop: what they have in common is worked out once.
-template <class Voting, class... Parts, std::size_t... I, class Chunk>
-[[gnu::noinline]] inline void add_points(Descriptor<Voting, Parts...>, std::index_sequence<I...>, const Chunk& chunk,
-                                         const VoteUnit& unit, float* out) noexcept {
-  using D = Descriptor<Voting, Parts...>;
-  const std::uint32_t size = chunk.size;
-  for (std::uint32_t i = 0; i < size; ++i) {
-    const Coordinates at = coordinates_at(chunk, i);
-    (add_point<Voting, Parts>(chunk, i, at, unit, out + D::offset(I)), ...);
-  }
-}
-
-/// The row of a chunk that has the signal of a part; 0 if the part has no histogram.
-template <class Part, class Chunk>
-constexpr int signal_row() noexcept {
-  if constexpr (Part::has_histogram) {
-    return Chunk::template row_of<typename Part::Signal>;
-  } else {
-    return 0;
-  }
-}
-
-/// The signal of a part if it is a signed one.
-template <class Part>
-using SignedOf = std::conditional_t<Part::Signal::is_signed, typename Part::Signal, void>;
-
-/// The same of one part where code shall be small: this function for all parts with these rules. `signal` is the row of
-/// the part's signal, or 0 if it has no histogram.
-template <class Voting, class Cells, class Scale, class Signed, class Chunk>
-[[gnu::noinline]] inline void add_points_of_part(const Chunk& chunk, const Axis (&axes)[4], int signal,
-                                                 const VoteUnit& unit, float* values) noexcept {
-  for (std::uint32_t i = 0; i < chunk.size; ++i) {
-    Share shares[4];
-    // Without a histogram all of a fourth axis' share is its partner's, which does not exist.
-    shares[3] = {simd::all_int(0), simd::all_int(0), simd::all_int(2 * unit.one)};
-    for (int k = 0; k < (signal == 0 ? 3 : 4); ++k) {
-      simd::F32 coordinate = simd::load(chunk.row(k == 3 ? signal : k, i));
-      if constexpr (!std::is_void<Signed>::value) {
-        if (k == 3) coordinate = place_in_histogram<Signed>(coordinate);
-      }
-      shares[k] = share_along_axis<Voting, Cells, Scale>(axes[k], k, coordinate, unit);
-    }
-    const auto votes = Voting::template combine<4>(axes, shares, unit);
-    for (int k = 0; k < Voting::template votes<4>; ++k) add_vote(values, votes.index[k], votes.weight[k]);
-  }
 }
 
 template <class Voting, class... Parts, std::size_t... I, class Chunk>

@@ -3,8 +3,9 @@
 // Neighbors go through in chunks, each chunk in passes over small arrays: locate (local spherical coordinates,
 // to_spherical.hpp), the distances of colors, and then for each part shares among cells (vote_shares.hpp), votes and
 // their addition (accumulate.hpp). Where there are lanes, the votes of most rules are worked out two registers at a
-// time (short_votes.hpp), in place of vote_shares.hpp: the rule, the arithmetic of cells and the addition are the same
-// code. Votes are integers, and so are their sums (fixed_point.hpp).
+// time (short_votes.hpp), in place of vote_shares.hpp; where there is one, each is added as soon as it is known
+// (single_votes.hpp). The rule, the arithmetic of cells and the addition are the same code. Votes are integers, and so
+// are their sums (fixed_point.hpp).
 #ifndef SHORTSHOT_KERNEL_DESCRIBE_HPP
 #define SHORTSHOT_KERNEL_DESCRIBE_HPP
 

@@ -120,13 +120,6 @@ struct ShortVotes : VoteRows<Voting, Part, std::int16_t, ChunkSize> {
   }
 };
 
-/// Does a rule vote for a cell and its partners, and say so?
-template <class Voting, class = void>
-struct VotesForPartners : std::false_type {};
-template <class Voting>
-struct VotesForPartners<Voting, std::void_t<decltype(Voting::votes_for_partners)>>
-    : std::bool_constant<Voting::votes_for_partners> {};
-
 /// Room behind the end of all sums, for votes that go nowhere and for registers.
 template <class... Parts>
 inline constexpr int room_behind_sums = [] {

@@ -51,7 +51,6 @@ struct CellVotes : SoftShares<D, I, Part> {
   }
 
  private:
-  static void add_vote(float* sum, simd::I32 votes) noexcept { detail::add_vote(sum, simd::all_int(0), votes); }
   /// Is cell `k` the upper one around?
   static constexpr bool is_around(int k) noexcept {
     bool around = false;
@@ -158,10 +157,10 @@ inline void add_by_table(const SoftTable& part, const simd::F32* coordinates, fl
   }
   float* const sums = part.numbers > 0 ? weights + part.weights : values + part.values;
   for (int k = 0; k < cells; ++k) {
-    add_vote(sums, simd::all_int(place[k]), truncate_to_int(weight[k]));
+    add_vote(sums + place[k], truncate_to_int(weight[k]));
     for (int n = 0; n < part.numbers; ++n) {
-      add_vote(values + part.values + n, simd::all_int(place[k] * part.numbers),
-               truncate_to_int(weight[k] * coordinates[part.first + n]));
+      add_vote(values + part.values + n + place[k] * part.numbers,
+               truncated_product(weight[k], coordinates[part.first + n]));
     }
   }
 }

@@ -109,7 +109,7 @@ struct SoftShares {
   /// Votes in units: those of the cell, and for means times the value of signal `K` - 1.
   template <int Cell, int K = 0>
   [[nodiscard]] SHORTSHOT_INLINE simd::I32 votes() const noexcept {
-    if constexpr (K > 0) return truncate_to_int(weight[Cell] * measured[K - 1]);
+    if constexpr (K > 0) return truncated_product(weight[Cell], measured[K - 1]);
     return truncate_to_int(weight[Cell]);
   }
 };

@@ -71,7 +71,7 @@ struct Neighbor {
 }
 template <class Index>
 [[nodiscard]] inline Neighbor neighbor_at(const CompactNeighborhood<Index>& n, std::uint32_t i) noexcept {
-  return neighbor_from(n.center, read(n.points, n.index[i]), n.index[i]);
+  return neighbor_from(n.center, read_in_place(n.points, n.index[i]), n.index[i]);
 }
 
 /// One register of neighbors. (Of five members, because compilers for ARM move structs of up to four floats to
@@ -85,6 +85,10 @@ struct NeighborLanes {
 /// which no pass counts; nothing is read beyond the neighborhood's size.
 template <class Neighbors>
 [[nodiscard]] SHORTSHOT_INLINE NeighborLanes load_neighbors(const Neighbors& n, std::uint32_t i) noexcept {
+  if constexpr (simd::lanes == 1) {
+    const Neighbor v = neighbor_at(n, i);
+    return {simd::all(v.dx), simd::all(v.dy), simd::all(v.dz), simd::all(v.d2), simd::load(&v.index)};
+  }
   float lanes[4][simd::lanes] = {};
   std::uint32_t index[simd::lanes] = {};
   for (std::uint32_t k = 0; k < simd::lanes && k < n.size - i; ++k) {
@@ -112,7 +116,7 @@ template <class Neighbors>
   return load_neighbors(n, i).d2;
 }
 [[nodiscard]] SHORTSHOT_INLINE simd::F32 load_d2(const Neighborhood& n, std::uint32_t i) noexcept {
-  return n.size - i >= simd::lanes ? simd::load(n.d2 + i) : load_neighbors(n, i).d2;
+  return simd::lanes == 1 || n.size - i >= simd::lanes ? simd::load(n.d2 + i) : load_neighbors(n, i).d2;
 }
 
 /// How many of the neighbors lie within a radius, the key point and its copies included.

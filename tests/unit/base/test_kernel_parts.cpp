@@ -74,4 +74,17 @@ TEST_CASE("kernel parts: tied votes of neighbors at one distance, with one index
   CHECK(ss::estimate_frame(n, 1.0f, frame) == ss::Status::ok);
 }
 
+TEST_CASE("kernel parts: the upper half of a product is added, rounded towards minus infinity") {
+  const std::int32_t numbers[] = {-2147483647 - 1, -2147483647, -65537, -3, -1, 0, 1, 2, 65536, 2147483647};
+  for (const std::int32_t a : numbers) {
+    for (const std::int32_t b : numbers) {
+      CAPTURE(a);
+      CAPTURE(b);
+      const std::int64_t product = std::int64_t{a} * b;
+      const std::int64_t rest = (product % 4294967296 + 4294967296) % 4294967296;
+      CHECK(detail::add_high_product(-7, a, b) == (product - rest) / 4294967296 - 7);
+    }
+  }
+}
+
 }  // namespace test_kernel_parts

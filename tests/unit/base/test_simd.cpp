@@ -1,6 +1,7 @@
 // The lane shim: what the passes rely on, for every mask.
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -136,6 +137,28 @@ TEST_CASE("simd: two registers in one of 16 bits, in order, with the arithmetic 
   check(minus_one_or_one(is_negative(a)), [](int x) { return x < 0 ? -1 : 1; });
   for (const int factor : {1, 2, 3, 8, 60}) {
     check(ss::extend::times(a, factor), [=](int x) { return x * factor; });
+  }
+}
+
+TEST_CASE("simd: what goes from floats to integers, and masks of signs") {
+  for (const float value : {-4194303.5f, -1.5f, -0.75f, -0.5f, -0.0f, 0.0f, 0.25f, 0.5f, 1.5f, 2.5f, 4194303.5f}) {
+    CAPTURE(value);
+    const auto each_is = [](simd::I32 result, double expected) {
+      std::int32_t integers[lanes];
+      simd::store(integers, result);
+      for (const std::int32_t integer : integers) CHECK(static_cast<double>(integer) == expected);
+    };
+    each_is(round_to_int(simd::all(value)), std::nearbyint(static_cast<double>(value)));
+    for (const float factor : {1.0f, 3.0f, 256.0f, 0.3f}) {
+      each_is(truncated_product(simd::all(value), simd::all(factor)), std::trunc(static_cast<double>(value * factor)));
+    }
+    const auto whole = static_cast<std::int32_t>(value);
+    const simd::I32 integer = simd::all_int(whole);
+    each_is(minus_one_or_one(is_negative(integer)), whole < 0 ? -1.0 : 1.0);
+    each_is(invert(is_negative(integer), integer), whole < 0 ? -1.0 - whole : whole);
+    each_is(keep(is_negative(integer), simd::all_int(5)), whole < 0 ? 5.0 : 0.0);
+    each_is(drop(is_negative(integer), simd::all_int(5)), whole < 0 ? 0.0 : 5.0);
+    CHECK(any(is_negative(integer)) == (whole < 0));
   }
 }
 
