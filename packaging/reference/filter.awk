@@ -87,6 +87,11 @@ lines_ahead && /^$/ {
   comment = ""
 }
 /^ *\/\/\/ / {
+  if (match($0, /\/\/\/ `[a-z_]+`  +/)) {  # a parameter
+    head = substr($0, RSTART, RLENGTH)
+    gsub(/[^a-z_]/, "", head)
+    $0 = substr($0, 1, RSTART - 1) "/// @param " head " " substr($0, RSTART + RLENGTH)
+  }
   text = $0
   sub(/^ *\/\/\/ /, "", text)
   comment = comment (comment == "" ? "" : " ") text
