@@ -1,25 +1,24 @@
 #!/bin/sh
-# check_reference.sh ROOT SCRATCH: does the API reference show what it must, and nothing else? Does it fail where
-# docstrings are missing, and say of what?
+# check_reference.sh ROOT MADE SCRATCH: does the API reference that make.sh has put into MADE show what it must, and nothing
+# else? Does make.sh fail where docstrings are missing, and say of what?
 set -eu
 root=$1
-scratch=$2
+html=$2/html
+scratch=$3
+fail() { echo "$1"; exit 1; }
+
+! find "$html" -name '*detail*' | grep . || fail "pages of what is nobody's"
+! grep -rlE 'v0_[0-9]|SHORTSHOT_(TYPES|CODE|INLINE)|gnu::' "$html" --include='namespace*.html' --include='group__*.html' \
+  --include='struct*.html' --include='class*.html' || fail "pages with inline namespaces or attributes"
+grep -q 'for firmware, too' "$html"/structshortshot_1_1CloudView.html || fail "a type of kernel.hpp is not marked"
+! grep -q 'for firmware, too' "$html"/structshortshot_1_1Features.html || fail "a type for hosts is marked as one of kernel.hpp"
+grep -q 'class="fragment"' "$html"/structshortshot_1_1extend_1_1Signal.html || fail "an example in a docstring is no code"
+
 rm -rf "$scratch"
 mkdir -p "$scratch/packaging"
 cp -r "$root/include" "$scratch"
 cp -r "$root/packaging/reference" "$scratch/packaging"
 cd "$scratch"
-
-fail() { echo "$1"; exit 1; }
-
-packaging/reference/make.sh
-html=build/docs/html
-! find $html -name '*detail*' | grep . || fail "pages of what is nobody's"
-! grep -rlE 'v0_[0-9]|SHORTSHOT_(TYPES|CODE|INLINE)|gnu::' $html --include='namespace*.html' --include='group__*.html' \
-  --include='struct*.html' --include='class*.html' || fail "pages with inline namespaces or attributes"
-grep -q 'for firmware, too' $html/structshortshot_1_1CloudView.html || fail "a type of kernel.hpp is not marked"
-! grep -q 'for firmware, too' $html/structshortshot_1_1Features.html || fail "a type for hosts is marked as one of kernel.hpp"
-grep -q 'class="fragment"' $html/structshortshot_1_1extend_1_1Signal.html || fail "an example in a docstring is no code"
 
 # forget HEADER DOCSTRING NAME: takes a docstring of one line away; what has lost it, must be reported.
 expected=

@@ -7,4 +7,6 @@ if(NOT found)
 endif()
 set(make_reference "${PROJECT_SOURCE_DIR}/packaging/reference/make.sh")
 build_test(reference "${make_reference}" "${there}/reference")
-build_test(reference.can_fail "${here}/check_reference.sh" "${PROJECT_SOURCE_DIR}" "${there}/reference_control")
+build_test(reference.can_fail "${here}/check_reference.sh" "${PROJECT_SOURCE_DIR}" "${there}/reference"
+  "${there}/reference_control")
+depends(reference.can_fail reference)
