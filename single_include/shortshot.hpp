@@ -120,8 +120,11 @@
 #ifndef SHORTSHOT_VERSION_HPP
 #define SHORTSHOT_VERSION_HPP
 
+/// Names may change with it.
 #define SHORTSHOT_VERSION_MAJOR 0
+/// Before 1.0, names may change with it, too.
 #define SHORTSHOT_VERSION_MINOR 1
+/// For everything else.
 #define SHORTSHOT_VERSION_PATCH 0
 
 /// For the preprocessor: 10,000 major + 100 minor + patch.
@@ -129,6 +132,7 @@
 
 namespace shortshot {
 
+/// The same as numbers.
 inline constexpr int version_major = SHORTSHOT_VERSION_MAJOR;
 inline constexpr int version_minor = SHORTSHOT_VERSION_MINOR;
 inline constexpr int version_patch = SHORTSHOT_VERSION_PATCH;
@@ -292,6 +296,7 @@ template <class Float>
   return __builtin_is_constant_evaluated() ? product : detail::hidden(product);
 }
 
+/// The inner product, summed as x + z first, then y.
 [[nodiscard]] inline float dot(const float (&a)[3], const float (&b)[3]) noexcept {
   return (unfused(a[0] * b[0]) + unfused(a[2] * b[2])) + unfused(a[1] * b[1]);
 }
@@ -968,6 +973,7 @@ inline void store(std::uint32_t* p, I32 a, const Packing& packing) noexcept {
 namespace shortshot::extend::simd {
 inline namespace SHORTSHOT_CODE {
 
+/// Elements of a register of 32 bits each.
 inline constexpr std::size_t lanes = 1;
 
 /// Does one instruction bring an integer to 0..2^k - 1?
@@ -980,8 +986,9 @@ inline constexpr bool saturates = false;
 /// Does one instruction add to memory, at any constant distance from where a register points?
 inline constexpr bool adds_to_memory = true;
 
+/// A register of floats, of integers (signed or not), of conditions, and of integers of 16 bits, twice as many.
 struct F32 {
-  float v;
+  float v;  ///< the lanes, in a form that is the shim's own business
 };
 struct I32 {
   std::int32_t v;
@@ -996,7 +1003,7 @@ struct SignMask {
   operator Mask() const noexcept { return {v != 0}; }  // NOLINT: it is one
 };
 struct I16 {
-  std::int16_t v __attribute__((vector_size(4)));
+  std::int16_t v __attribute__((vector_size(4)));  ///< the lanes
 };
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno; where there is no
@@ -1015,11 +1022,13 @@ struct I16 {
 #endif
 }
 
+/// A register of what lies from `p` on, and the other way; no alignment is assumed.
 [[nodiscard]] inline F32 load(const float* p) noexcept { return {*p}; }
 [[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept { return {static_cast<std::int32_t>(*p)}; }
 inline void store(float* p, F32 a) noexcept { *p = a.v; }
 inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint32_t>(a.v); }
+/// `value` in all lanes.
 [[nodiscard]] inline F32 all(float value) noexcept { return {value}; }
 /// value_at(k) in lane k.
 template <class Function>
@@ -1027,6 +1036,7 @@ template <class Function>
   return {value_at(0)};
 }
 
+/// Lane by lane, each operation rounded as IEEE 754 says; a comparison with NaN is false, but for != (true).
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {a.v + b.v}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {a.v - b.v}; }
 [[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {unfused(a.v * b.v)}; }
@@ -1039,6 +1049,7 @@ template <class Function>
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
 
+/// Lane by lane. min() and max() give b where one of the two is NaN.
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {sqrt(a.v)}; }
 [[nodiscard]] inline F32 abs(F32 a) noexcept { return {__builtin_fabsf(a.v)}; }
 [[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {a.v < b.v ? a.v : b.v}; }
@@ -1050,6 +1061,7 @@ template <class Function>
 [[nodiscard]] inline F32 negate(Mask m, F32 a) noexcept { return {m.v ? -a.v : a.v}; }
 /// a where m, else zero.
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {m.v ? a.v : 0.0f}; }
+/// Is it set in any lane, in every lane?
 [[nodiscard]] inline bool any(Mask m) noexcept { return m.v; }
 [[nodiscard]] inline bool every(Mask m) noexcept { return m.v; }
 /// a + 1 where m, else a.
@@ -1067,6 +1079,7 @@ template <class Function>
   std::memcpy(&value.v, &a.v, sizeof value.v);
   return value;
 }
+/// Rounded to nearest, ties to even.
 [[nodiscard]] inline F32 to_float(I32 a) noexcept { return {static_cast<float>(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
@@ -1090,6 +1103,7 @@ template <class Function>
 
 /// Lanes of integers.
 [[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {value}; }
+/// Lane by lane, modulo 2^32; shifts and comparisons are those of signed numbers.
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {a.v - b.v}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {a.v & b.v}; }
 [[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {a.v == b.v}; }
@@ -1104,6 +1118,7 @@ template <class Function>
 [[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
 /// For numbers from 0 to 2^31 - 1, as is the product.
 [[nodiscard]] inline I32 product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
+/// Is the sign bit set?
 [[nodiscard]] inline SignMask is_negative(I32 a) noexcept { return {a.v >> 31}; }
 /// -1 where m, else 1.
 [[nodiscard]] inline I32 minus_one_or_one(SignMask m) noexcept { return {m.v | 1}; }
@@ -1127,7 +1142,9 @@ template <class Function>
   return both;
 }
 [[nodiscard]] inline I16 narrow(Mask a, Mask b) noexcept { return narrow(I32{a.v ? -1 : 0}, I32{b.v ? -1 : 0}); }
+/// Lane by lane, modulo 2^16.
 [[nodiscard]] inline I16 operator*(I16 a, I16 b) noexcept { return {a.v * b.v}; }
+/// To memory without any alignment, in order.
 inline void store(std::int16_t* p, I16 a) noexcept { std::memcpy(p, &a, sizeof a); }
 
 /// What the lane has in a, b, c and d.
@@ -1149,9 +1166,10 @@ inline void store(std::int16_t* p, I16 a) noexcept { std::memcpy(p, &a, sizeof a
 
 /// How store() packs the lanes where a mask is set.
 struct Packing {
-  std::uint32_t count;
+  std::uint32_t count;  ///< lanes that are set
 };
 
+/// How store() packs the lanes where `m` is set.
 [[nodiscard]] inline Packing packing(Mask m) noexcept { return {m.v ? 1u : 0u}; }
 
 /// The lanes where the mask is set, one behind the other; what is written behind them, up to a register's length, means
@@ -1329,7 +1347,7 @@ inline namespace SHORTSHOT_TYPES {
 // (version 14 of it does not know attributes of enumerations)
 // clang-format off
 enum class [[nodiscard]] Status : std::uint8_t {
-  ok,
+  ok,                  ///< nothing is wrong
   empty_cloud,         ///< the cloud has no point, or no point with three finite coordinates
   bad_view,            ///< the view's memory cannot be what it says (null pointer, field outside the point, too short)
   bad_radius,          ///< a radius is not a finite number above zero, or its square leaves the range of float
@@ -1375,6 +1393,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
 };
 // clang-format on
 
+/// Number of statuses.
 inline constexpr int status_count = static_cast<int>(Status::not_written) + 1;
 
 }  // namespace SHORTSHOT_TYPES
@@ -1442,19 +1461,21 @@ inline namespace SHORTSHOT_TYPES {
 /// Three float coordinates per point: where each one of point 0 lies, and how far it is to the same one of point 1.
 /// Covers x y z x y z ..., arrays of structs with padding, and separate x, y, z arrays. No alignment is assumed.
 struct Float3Channel {
+  /// A float of point 0.
   const unsigned char* x;
   const unsigned char* y;
   const unsigned char* z;
-  std::size_t stride_bytes;
+  std::size_t stride_bytes;  ///< bytes from one point to the next
 };
 
 /// Three color bytes per point, sRGB. The three pointers express the order r g b, b g r (PCL, packed floats) or
 /// planes.
 struct ColorChannel {
+  /// A byte of point 0.
   const unsigned char* r;
   const unsigned char* g;
   const unsigned char* b;
-  std::size_t stride_bytes;
+  std::size_t stride_bytes;  ///< bytes from one point to the next
 };
 
 /// How the numbers of a ScalarChannel are stored.
@@ -1462,9 +1483,9 @@ enum class ScalarType : std::uint8_t { float32, uint8, uint16 };
 
 /// One number per point, as the intensity of a lidar's or a time-of-flight camera's echo.
 struct ScalarChannel {
-  const unsigned char* value;
-  std::size_t stride_bytes;
-  ScalarType type;
+  const unsigned char* value;  ///< of point 0
+  std::size_t stride_bytes;    ///< bytes from one point to the next
+  ScalarType type;             ///< how each is stored
 };
 
 /// What a descriptor may need of a cloud beyond its points; `own`: something that no view has, but the caller.
@@ -1475,33 +1496,35 @@ enum class Channel : std::uint8_t { colors, normals, intensities, own };
 /// A channel whose first pointer is null is absent. `width * height == size`; height is 1 for unorganized clouds.
 /// Trivial type with plain members, the same in every translation unit; reading it is thread-safe.
 struct CloudView {
-  Float3Channel points;
-  ColorChannel colors;
-  Float3Channel normals;
-  ScalarChannel intensities;
-  std::size_t size;
-  std::size_t width;
-  std::size_t height;
-  Status status;  ///< ok, or why the view could not be made: whoever is asked to read it says so
+  Float3Channel points;       ///< where they are
+  ColorChannel colors;        ///< r null: none
+  Float3Channel normals;      ///< x null: none
+  ScalarChannel intensities;  ///< value null: none
+  std::size_t size;           ///< number of points, valid or not
+  std::size_t width;          ///< columns of the image; `size` for unorganized clouds
+  std::size_t height;         ///< rows of the image, from top to bottom
+  Status status;              ///< ok, or why the view could not be made: whoever is asked to read it says so
 };
 
+/// A position, in the cloud's unit. Trivial type.
 struct Point {
-  float x, y, z;
+  float x, y, z;  ///< coordinates
 };
 
 /// A surface normal: a unit vector, or NaN in all three where a point has none.
 struct SurfaceNormal {
-  float x, y, z;
+  float x, y, z;  ///< components
 };
 
 /// An sRGB color.
 struct Rgb {
-  std::uint8_t r, g, b;
+  std::uint8_t r, g, b;  ///< red, green and blue
 };
 
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
 
+/// Does the cloud have this channel?
 [[nodiscard]] inline bool has_colors(const CloudView& cloud) noexcept { return cloud.colors.r != nullptr; }
 [[nodiscard]] inline bool has_normals(const CloudView& cloud) noexcept { return cloud.normals.x != nullptr; }
 [[nodiscard]] inline bool has_intensities(const CloudView& cloud) noexcept {
@@ -1779,6 +1802,7 @@ inline namespace SHORTSHOT_CODE {
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
+/// The position of point `index`, which must be below cloud.size, finite or not.
 [[nodiscard]] inline Point point(const CloudView& cloud, std::size_t index) noexcept {
   return extend::read(cloud.points, index);
 }
@@ -1799,6 +1823,7 @@ inline namespace SHORTSHOT_CODE {
   return extend::read(cloud.intensities, index);
 }
 
+/// Are all three coordinates finite?
 [[nodiscard]] inline bool is_finite(const Point& p) noexcept {
   return extend::math::is_finite(p.x) && extend::math::is_finite(p.y) && extend::math::is_finite(p.z);
 }
@@ -1843,7 +1868,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// The points of one register.
 struct PointLanes {
-  simd::F32 x, y, z;
+  simd::F32 x, y, z;  ///< of each lane's point
 };
 
 /// Their component along an axis, rounded as PCL and the published code round it: x + z first, then y.
@@ -1869,6 +1894,7 @@ template <class Function>
   return {read_component(channel.x), read_component(channel.y), read_component(channel.z)};
 }
 
+/// Which points have three finite coordinates.
 [[nodiscard]] inline simd::Mask is_finite(const PointLanes& p) noexcept {
   const simd::I32 exponent = simd::all_int(0x7F800000);
   const auto below = [&](simd::F32 v) { return (bits_of(v) & exponent) - exponent; };  // negative if v is finite
@@ -1877,8 +1903,8 @@ template <class Function>
 
 /// Some points, and which of them have three finite coordinates; the others are zeros.
 struct ValidLanes {
-  PointLanes points;
-  simd::Mask valid;
+  PointLanes points;  ///< zeros where not valid
+  simd::Mask valid;   ///< which they are
 };
 
 /// `count` points from index `first` on, at most a register, at least one. Beyond them nothing is read or valid.
@@ -2020,11 +2046,13 @@ inline namespace SHORTSHOT_TYPES {
 /// Converts from float, squared in float. from_double() squares in double and rounds once, as PCL does: the same
 /// neighbors to the last point on the rim. (Meant for constants and hosts: no double is left in firmware code.)
 struct Radius {
-  float value;
-  float squared;
+  float value;    ///< meters
+  float squared;  ///< what squared distances are compared with
 
+  /// Squared in float.
   [[gnu::always_inline]] constexpr Radius(float radius) noexcept
       : value(radius), squared(radius * radius) {}  // NOLINT: 0.04f is a radius
+  /// Squared in double, rounded once.
   [[nodiscard, gnu::always_inline]] static constexpr Radius from_double(double radius) noexcept {
     Radius r(static_cast<float>(radius));
     r.squared = static_cast<float>(radius * radius);
@@ -2058,27 +2086,27 @@ inline constexpr std::uint32_t max_neighbors = 1u << 24;
 
 /// The neighbors of one key point: a structure of arrays in memory that somebody else owns. Trivial type.
 struct Neighborhood {
-  float* dx;  ///< neighbor - key point in meters; `capacity` elements, as in all arrays here
-  float* dy;
-  float* dz;
-  float* d2;             ///< squared distance, summed as (dx*dx + dy*dy) + dz*dz in float
-  std::uint32_t* index;  ///< the neighbor's index in the cloud; no two are the same
-  std::uint32_t capacity;
-  std::uint32_t size;   ///< neighbors stored, the key point itself and its copies included
-  std::uint32_t found;  ///< neighbors found; more than `capacity` if they did not fit
-  Point center;         ///< the key point: what gather() was asked for
+  float* dx;               ///< neighbor - key point in meters; `capacity` elements, as in all arrays here
+  float* dy;               ///< the same along y
+  float* dz;               ///< the same along z
+  float* d2;               ///< squared distance, summed as (dx*dx + dy*dy) + dz*dz in float
+  std::uint32_t* index;    ///< the neighbor's index in the cloud; no two are the same
+  std::uint32_t capacity;  ///< how many fit
+  std::uint32_t size;      ///< neighbors stored, the key point itself and its copies included
+  std::uint32_t found;     ///< neighbors found; more than `capacity` if they did not fit
+  Point center;            ///< the key point: what gather() was asked for
 };
 
 /// The same in a tenth (or, with 32-bit indices, a fifth) of the memory: indices only. Offsets are worked out from the
 /// cloud whenever they are asked for, with the same bits. Trivial type.
 template <class Index>
 struct CompactNeighborhood {
-  Float3Channel points;  ///< of the cloud
-  Point center;          ///< the key point
-  Index* index;          ///< the neighbor's index in the cloud, `capacity` elements; no two are the same
-  std::uint32_t capacity;
-  std::uint32_t size;   ///< neighbors stored, the key point itself and its copies included
-  std::uint32_t found;  ///< neighbors found; more than `capacity` if they did not fit
+  Float3Channel points;    ///< of the cloud
+  Point center;            ///< the key point
+  Index* index;            ///< the neighbor's index in the cloud, `capacity` elements; no two are the same
+  std::uint32_t capacity;  ///< how many fit
+  std::uint32_t size;      ///< neighbors stored, the key point itself and its copies included
+  std::uint32_t found;     ///< neighbors found; more than `capacity` if they did not fit
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -2090,10 +2118,11 @@ inline namespace SHORTSHOT_CODE {
 /// One neighbor: from the key point to it, in meters; how far that is, squared, summed as (dx*dx + dy*dy) + dz*dz; and
 /// its index in the cloud.
 struct Neighbor {
-  float dx, dy, dz, d2;
-  std::uint32_t index;
+  float dx, dy, dz, d2;  ///< offset and squared distance
+  std::uint32_t index;   ///< in the cloud
 };
 
+/// A neighbor of `center` at `p`.
 [[nodiscard]] inline Neighbor neighbor_from(const Point& center, const Point& p, std::uint32_t index) noexcept {
   const float dx = p.x - center.x;
   const float dy = p.y - center.y;
@@ -2113,8 +2142,8 @@ template <class Index>
 /// One register of neighbors. (Of five members, because compilers for ARM move structs of up to four floats to
 /// registers and back wherever a function returns them.)
 struct NeighborLanes {
-  simd::F32 dx, dy, dz, d2;
-  simd::I32 index;
+  simd::F32 dx, dy, dz, d2;  ///< offsets and squared distances
+  simd::I32 index;           ///< in the cloud
 };
 
 /// The register from neighbor `i` on. What is left over at the end comes with copies of the key point (all zeros),
@@ -2197,11 +2226,11 @@ enum class BelowZero : std::uint8_t { never, first_cell, nowhere };
 /// Positions along it are fixed-point numbers of cells with `bits` bits behind the point. A value and not a type: where
 /// code is inlined for speed it is as constant, and where it shall be small all axes share one function.
 struct Axis {
-  std::int32_t cells;
-  std::int32_t stride;
-  Beyond end;
-  BelowZero below_zero;
-  std::int8_t bits;
+  std::int32_t cells;       ///< number of them, from 1 on
+  std::int32_t stride;      ///< values from one cell to the next
+  Beyond end;               ///< what lies beyond the last cell
+  BelowZero below_zero;     ///< what a position below zero is
+  std::int8_t bits;         ///< of a position behind the point
   bool reaches_end = true;  ///< may a position be the very end, the upper border of the last cell?
 
   /// A whole cell, and the whole axis.
@@ -2223,7 +2252,7 @@ inline namespace SHORTSHOT_TYPES {
 
 /// Distances of neighboring cells in a grid's layout, in cells.
 struct CellStrides {
-  int radial, elevation, azimuth;
+  int radial, elevation, azimuth;  ///< from one shell, elevation or sector to the next
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -2243,6 +2272,7 @@ struct PublishedCells {
   template <class Grid>
   static constexpr bool needs_frame = true;
 
+  /// How the cells of a grid are laid out.
   template <class Grid>
   static constexpr extend::CellStrides strides{1, Grid::radial, Grid::radial* Grid::elevation};
   /// Values of a histogram of a signal's `bins`.
@@ -2659,9 +2689,10 @@ inline namespace SHORTSHOT_TYPES {
 /// A point, in the cloud's coordinates, to which or from which normals and the z axes of frames are turned. Absent (the
 /// default): a normal's sign is the solver's, a frame's z is turned by SHOT's vote. Trivially copyable.
 struct Viewpoint {
+  /// What the point is.
   enum class Side : std::uint8_t { absent, towards, away_from };
-  Side side = Side::absent;
-  Point point = {};
+  Side side = Side::absent;  ///< absent: the point means nothing
+  Point point = {};          ///< in the cloud's coordinates
 
   /// To the camera, which sees the surface from outside. In a depth camera's own coordinates it is at {0, 0, 0}.
   [[nodiscard, gnu::always_inline]] static constexpr Viewpoint towards(const Point& camera) noexcept {
@@ -2718,9 +2749,9 @@ inline namespace SHORTSHOT_TYPES {
 
 /// A local reference frame: three orthonormal axes in the cloud's coordinates, right-handed. Trivial type.
 struct Frame {
-  float x[3];
-  float y[3];
-  float z[3];
+  float x[3];  ///< in SHOT: along the surface, where more points are
+  float y[3];  ///< z cross x
+  float z[3];  ///< in SHOT: the normal, where more points are
 };
 
 /// How clear the decisions were that made a frame; confidence() makes one number of them. Zeros: there is no frame, or
@@ -3015,15 +3046,17 @@ inline namespace SHORTSHOT_TYPES {
 /// intensity that its neighbors' are compared with. Where a descriptor needs one that a key point does not have, the
 /// key point has the status missing_colors or missing_intensities. Trivially copyable.
 struct KeyPoint {
-  Point position;
-  float intensity;
-  Rgb color;
-  bool has_color : 1;
-  bool has_intensity : 1;
+  Point position;          ///< in the cloud's coordinates
+  float intensity;         ///< if has_intensity
+  Rgb color;               ///< if has_color
+  bool has_color : 1;      ///< can its color be compared?
+  bool has_intensity : 1;  ///< can its intensity be compared?
 
   KeyPoint() = default;
+  /// Without a color or an intensity.
   [[gnu::always_inline]] constexpr KeyPoint(const Point& p) noexcept  // NOLINT: a point can be described
       : position(p), intensity(0.0f), color{}, has_color(false), has_intensity(false) {}
+  /// With a color.
   [[gnu::always_inline]] constexpr KeyPoint(const Point& p, const Rgb& rgb) noexcept
       : position(p), intensity(0.0f), color(rgb), has_color(true), has_intensity(false) {}
 };
@@ -3067,13 +3100,15 @@ inline namespace SHORTSHOT_CODE {
 /// The intensities of a cloud's own channel, and the key point's: the source of Intensity. A neighbor whose intensity
 /// is not finite has none.
 struct CloudIntensities {
-  static constexpr Channel channel = Channel::intensities;
-  ScalarChannel intensities;  ///< the cloud's
-  float reference;            ///< the key point's
+  static constexpr Channel channel = Channel::intensities;  ///< of the cloud that it reads
+  ScalarChannel intensities;                                ///< the cloud's
+  float reference;                                          ///< the key point's
+  /// What a signal gets that the caller gives no source to. Reads the key point's alone.
   [[nodiscard]] static CloudIntensities at(const CloudView& cloud, const KeyPoint& key) noexcept {
     const bool known = key.has_intensity && extend::math::is_finite(key.intensity);
     return {known ? cloud.intensities : ScalarChannel{}, key.intensity};
   }
+  /// ok or missing_intensities.
   [[nodiscard]] Status status() const noexcept {
     return intensities.value != nullptr ? Status::ok : Status::missing_intensities;
   }
@@ -3099,10 +3134,13 @@ inline namespace SHORTSHOT_CODE {
 
 /// The normals of a cloud's own channel: the source of NormalCosine. A neighbor whose normal is not finite has none.
 struct CloudNormals {
-  static constexpr Channel channel = Channel::normals;
-  Float3Channel normals;  ///< the cloud's
+  static constexpr Channel channel = Channel::normals;  ///< of the cloud that it reads
+  Float3Channel normals;                                ///< the cloud's
+  /// Borrows the channel; one that is not there is missing_normals.
   explicit CloudNormals(const CloudView& cloud) noexcept : normals(cloud.normals) {}
+  /// What a signal gets that the caller gives no source to.
   [[nodiscard]] static CloudNormals at(const CloudView& cloud, const KeyPoint&) noexcept { return CloudNormals(cloud); }
+  /// ok or missing_normals.
   [[nodiscard]] Status status() const noexcept { return normals.x != nullptr ? Status::ok : Status::missing_normals; }
   /// One register of normals by index.
   [[nodiscard, gnu::always_inline]] extend::PointLanes operator()(const std::uint32_t* index) const noexcept {
@@ -3269,7 +3307,7 @@ inline namespace SHORTSHOT_TYPES {
 
 /// CIELAB color: L in 0..100 (-16 for PclLab's white), a and b clamped to -120..120 as both existing codes do.
 struct Lab {
-  float L, a, b;
+  float L, a, b;  ///< lightness; green to red; blue to yellow
 };
 
 /// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
@@ -3387,9 +3425,10 @@ inline namespace SHORTSHOT_CODE {
 
 /// Lanes of CIELAB colors.
 struct LabLanes {
-  simd::F32 L, a, b;
+  simd::F32 L, a, b;  ///< of each lane
 };
 
+/// The same color in all lanes.
 [[nodiscard]] SHORTSHOT_INLINE LabLanes in_all_lanes(const Lab& color) noexcept {
   return {simd::all(color.L), simd::all(color.a), simd::all(color.b)};
 }
@@ -3437,11 +3476,13 @@ inline namespace SHORTSHOT_CODE {
 class PackedLab {
  public:
   PackedLab() = default;
+  /// The nearest color that 4 bytes have.
   PackedLab(const Lab& color) noexcept  // NOLINT: converts like a number
       : bits_(code(extend::unfused(color.L * 20.0f), 2000.0f) |
               code(extend::unfused((color.a + 90.0f) * (1.0f / a_step)), 1023.0f) << 11 |
               code(extend::unfused((color.b + 108.875f) * (1.0f / b_step)), 2047.0f) << 21) {}
 
+  /// Back, within half a step.
   operator Lab() const noexcept {  // NOLINT: converts like a number
     return {extend::unfused(static_cast<float>(bits_ & 2047u) * 0.05f),
             extend::unfused(static_cast<float>(bits_ >> 11 & 1023u) * a_step) - 90.0f,
@@ -3515,19 +3556,24 @@ inline namespace SHORTSHOT_CODE {
 /// every neighbor's bytes when it is asked: no memory per point.
 template <class LabRule>
 struct RgbColors {
-  static constexpr Channel channel = Channel::colors;
-  using Rule = LabRule;
-  ColorChannel bytes;  ///< the cloud's
-  Lab reference;       ///< the key point's
+  static constexpr Channel channel = Channel::colors;  ///< of the cloud that it reads
+  using Rule = LabRule;                                ///< by which it converts
+  ColorChannel bytes;                                  ///< the cloud's
+  Lab reference;                                       ///< the key point's
+  /// Compares with `color`; a channel that is not there is missing_colors.
   RgbColors(const CloudView& cloud, const Rgb& color) noexcept : bytes(cloud.colors) {
     detail::put_lab<LabRule>(color, reference);
   }
+  /// Compares with a reference that the kernel sets: for signals of the MeanColor.
   explicit RgbColors(const CloudView& cloud) noexcept : bytes(cloud.colors), reference{0.0f, 0.0f, 0.0f} {}
+  /// ok or missing_colors.
   [[nodiscard]] Status status() const noexcept { return bytes.r != nullptr ? Status::ok : Status::missing_colors; }
+  /// The color of point `index`, converted.
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept {
     return to_lab<LabRule>(extend::read(bytes, index));
   }
 
+  /// What a signal gets that the caller gives no source to.
   [[nodiscard]] static RgbColors at(const CloudView& cloud, const KeyPoint& key) noexcept {
     RgbColors colors(cloud, key.color);
     if (!key.has_color) colors.bytes.r = nullptr;
@@ -3551,8 +3597,10 @@ struct RgbColors {
 template <class Color>
 struct StoredColors {
   const Color* lab;  ///< one per point of the cloud, borrowed
-  Lab reference;
+  Lab reference;     ///< the key point's
+  /// ok or missing_colors.
   [[nodiscard]] Status status() const noexcept { return lab != nullptr ? Status::ok : Status::missing_colors; }
+  /// The color of point `index`.
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return lab[index]; }
 };
 
@@ -3643,8 +3691,8 @@ template <class... Sources>
 struct SourceSet {};
 template <class First, class... Others>
 struct SourceSet<First, Others...> {
-  First first;
-  SourceSet<Others...> others;
+  First first;                  ///< one of them
+  SourceSet<Others...> others;  ///< the rest
 };
 
 }  // namespace SHORTSHOT_CODE
@@ -3746,9 +3794,9 @@ inline namespace SHORTSHOT_TYPES {
 /// whole descriptor. `at` is a NeighborsAt, or where reads_index_only is set an IndicesAt.
 template <int Bins, class... Kinds>
 struct Signal {
-  static constexpr bool has_histogram = true;
-  static constexpr int bins = Bins;
-  using Sources = SourceKinds<Kinds...>;
+  static constexpr bool has_histogram = true;  ///< else a cell holds a plain sum
+  static constexpr int bins = Bins;            ///< of its histogram
+  using Sources = SourceKinds<Kinds...>;       ///< kinds of sources that it reads
   /// Signals that are Measured alike have the same values: they are measured once. Set it to the signal of one bin.
   using Measured = void;
   /// Set where measure() looks at nothing but the index, and every point has a value: fewer registers to go through.
@@ -3774,7 +3822,7 @@ inline namespace SHORTSHOT_CODE {
 /// What is measured at once.
 template <int Components>
 struct Values {
-  simd::F32 of[static_cast<std::size_t>(Components)];
+  simd::F32 of[static_cast<std::size_t>(Components)];  ///< one register for each
 };
 
 /// Where the neighbors of one register are.
@@ -3786,8 +3834,9 @@ struct NeighborsAt {
   const FrameAxes& frame;      ///< x, y and z, for along()
 };
 
+/// Which neighbors are in one register, for signals that look at nothing else.
 struct IndicesAt {
-  const std::uint32_t* index;
+  const std::uint32_t* index;  ///< simd::lanes of them, in the cloud
 };
 
 }  // namespace SHORTSHOT_CODE
@@ -3799,10 +3848,10 @@ inline namespace SHORTSHOT_TYPES {
 /// What a color signal compares neighbors' colors with: the key point's own, or the mean of all within the radius, the
 /// key point included. (One point's color is noise: the mean finds a third more.)
 struct KeyPointColor {
-  static constexpr const char* name = "key point's color";
+  static constexpr const char* name = "key point's color";  ///< for layout_of()
 };
 struct MeanColor {
-  static constexpr const char* name = "mean color";
+  static constexpr const char* name = "mean color";  ///< for layout_of()
 };
 
 /// Signal of SSH: none. Every point counts as one, a cell holds a plain sum.
@@ -3817,6 +3866,7 @@ struct NormalCosine : extend::Signal<Bins, CloudNormals> {
   static_assert(Bins >= 1 && Bins <= 1023, "NormalCosine<Bins> supports 1 to 1023 histogram bins");
   static constexpr const char* name = "normal cosine";
   using Measured = NormalCosine<1>;
+  /// The places of a register of neighbors in the histogram, 0 to 1; see extend::Signal.
   template <class At, class Normals>
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 measure(const At& at, const Normals& normals) noexcept {
     return extend::along(at.frame.z, normals(at.index)) * extend::simd::all(0.5f) + extend::simd::all(0.5f);
@@ -3893,7 +3943,9 @@ struct ColorOffset : extend::Signal<Bins, RgbColors<LabRule>> {
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 measure(const At& at, const Colors& colors) noexcept {
     return Measured::measure(at, colors).of[component];
   }
+  /// What the means of a part are of, from what measure() gave.
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 value(extend::simd::F32 offset) noexcept { return offset; }
+  /// The place in the histogram, from what measure() gave.
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 place(extend::simd::F32 offset) noexcept {
     return offset * extend::simd::all(Axis == LabAxis::L ? 1.25f : 1.0f) + extend::simd::all(0.5f);
   }
@@ -4037,6 +4089,7 @@ inline namespace SHORTSHOT_CODE {
   return all;
 }
 
+/// As those of I32, on 16 bits: sums are modulo 2^16, and a mask is -1 where it is set, else 0.
 [[nodiscard]] inline I16 operator+(I16 a, I16 b) noexcept { return {a.v + b.v}; }
 [[nodiscard]] inline I16 operator-(I16 a, I16 b) noexcept { return {a.v - b.v}; }
 [[nodiscard]] inline I16 operator&(I16 a, I16 b) noexcept { return {a.v & b.v}; }
@@ -4061,8 +4114,8 @@ inline namespace SHORTSHOT_TYPES {
 /// The fixed-point unit of all votes: `one`, a power of two, is a whole share. A rule may count twice as much for it;
 /// its `weight_bits` say how much that makes of a point: less than 2^weight_bits units, or just as much.
 struct VoteUnit {
-  int bits;
-  std::int32_t one;
+  int bits;          ///< one is 2^bits
+  std::int32_t one;  ///< a whole share
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -4078,8 +4131,8 @@ struct Share {
 /// The votes of one point: `Count` indices into the part and their weights, in units.
 template <int Count>
 struct Votes {
-  simd::I32 index[static_cast<std::size_t>(Count)];
-  simd::I32 weight[static_cast<std::size_t>(Count)];
+  simd::I32 index[static_cast<std::size_t>(Count)];   ///< of cells, in the part
+  simd::I32 weight[static_cast<std::size_t>(Count)];  ///< what each gets
 };
 
 // Cells are counted in lanes of 32 bits (I32), or of 16 (I16), two registers at a time: `Int`. `Lower` is a mask of
@@ -4179,6 +4232,7 @@ struct Side {
   return detail::small_code || axis.cells == 1 || axis.end == Beyond::nothing || axis.below_zero == BelowZero::nowhere;
 }
 
+/// Index of the primary cell in the part, from the shares along `Axes` axes.
 template <int Axes>
 [[nodiscard]] SHORTSHOT_INLINE simd::I32 primary_index(const Share (&shares)[4]) noexcept {
   simd::I32 index = shares[0].cell;
@@ -4229,13 +4283,15 @@ inline namespace SHORTSHOT_TYPES {
 template <bool FlipRadius>
 struct AdditiveVoting {
   static constexpr const char* name = FlipRadius ? "published voting" : "additive voting";  ///< for layout_of()
-  static constexpr bool partners_get_own_share = false;
-  static constexpr bool votes_for_partners = true;
-  static constexpr bool drops_nowhere = false;
-  static constexpr int weight_bits = 2;
+  static constexpr bool partners_get_own_share = false;  ///< of a partner: its own axis' share alone?
+  static constexpr bool votes_for_partners = true;       ///< one vote for the cell, and one for each axis' partner
+  static constexpr bool drops_nowhere = false;  ///< no vote for a partner where the position is nowhere on the axis
+  static constexpr int weight_bits = 2;         ///< a point counts for less than 2^weight_bits units
+  /// Votes of a point, at the most.
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
+  /// Where the partner lies along one axis, and its share.
   [[nodiscard]] SHORTSHOT_INLINE static extend::Side side(const extend::Axis& axis, extend::simd::I32 position,
                                                           const extend::VoteUnit& unit) noexcept {
     extend::simd::I32 fraction = position & extend::simd::all_int((std::int32_t{1} << axis.bits) - 1);
@@ -4246,12 +4302,14 @@ struct AdditiveVoting {
     return extend::side(axis, fraction, unit, false);
   }
 
+  /// What the primary cell gets, in units.
   template <int Axes, class Sides>
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 weight_of_cell(const Sides (&sides)[4],
                                                                          const extend::VoteUnit& unit) noexcept {
     return extend::simd::all_int(Axes * unit.one) -
            extend::simd::shift_right(extend::twice_all_partners<Axes>(sides), 1);
   }
+  /// What the partner along `axis` gets, in units.
   template <class Sides>
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 weight_of_partner(int axis, const Sides (&sides)[4],
                                                                             extend::simd::I32 of_cell,
@@ -4262,11 +4320,13 @@ struct AdditiveVoting {
     return FlipRadius && axis == 3 ? weight + (sides[0].twice_partner - one) : weight;
   }
 
+  /// The cell that a position lies in along one axis, its partner, and the partner's share.
   [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
                                                             const extend::VoteUnit& unit) noexcept {
     return extend::share(axis, extend::cell_of(axis, position), side(axis, position, unit));
   }
 
+  /// The votes of one point from its shares along all axes.
   template <int Axes>
   [[nodiscard]] SHORTSHOT_INLINE static extend::Votes<Axes + 1> combine(const extend::Axis (&axes)[4],
                                                                         const extend::Share (&shares)[4],
@@ -4344,6 +4404,7 @@ struct SeparateVoting {
   }
 };
 
+/// SHOT as its paper has it: the default of Shot and Cshot.
 using ShotVoting = SeparateVoting<false>;
 using PclVoting = SeparateVoting<true>;  ///< equal to PCL to the last quirk: for what is compared with PCL's output
 
@@ -4486,9 +4547,9 @@ inline namespace SHORTSHOT_TYPES {
 /// a float's own rounding is as good as any.
 template <int Multiples, int... Steps>
 struct ShellBorders {
-  static constexpr float per_radius = static_cast<float>(Multiples);
-  static constexpr int grids = static_cast<int>(sizeof...(Steps));
-  static constexpr float steps[] = {static_cast<float>(Steps)..., 0.0f};  // 0: the end
+  static constexpr float per_radius = static_cast<float>(Multiples);      ///< multiples
+  static constexpr int grids = static_cast<int>(sizeof...(Steps));        ///< number of them
+  static constexpr float steps[] = {static_cast<float>(Steps)..., 0.0f};  ///< of each grid, in multiples; 0: the end
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -4619,8 +4680,9 @@ template <int PerMille = 1000>
 struct RootOfShares {
   static_assert(PerMille >= 1 && PerMille <= 100000, "RootOfShares<PerMille> supports weights from 1 / 1000 to 100");
   static constexpr const char* name = "root of shares";
-  static constexpr int per_mille = PerMille;
+  static constexpr int per_mille = PerMille;  ///< the part's weight, times 1000
 
+  /// Finishes the `size` values of a part, in place.
   static void apply(float* values, int size) noexcept {
     detail::roots_of_shares(values, size, static_cast<float>(PerMille) / 1000.0f);
   }
@@ -4639,8 +4701,8 @@ struct SignedRoots {
                 "SignedRoots<PerMille, Floor, Noise> supports noise from 0 to 1");
   static constexpr const char* name = "signed roots";
   static constexpr int per_mille = PerMille;
-  static constexpr int floor_percent = FloorPercent;
-  static constexpr int noise_per_mille = NoisePerMille;
+  static constexpr int floor_percent = FloorPercent;     ///< times 100
+  static constexpr int noise_per_mille = NoisePerMille;  ///< times 1000
 
   static void apply(float* values, int size) noexcept {
     constexpr float noise = static_cast<float>(NoisePerMille) / 1000.0f;
@@ -4676,16 +4738,17 @@ struct SphericalGrid {
                 "SphericalGrid<Radial, Elevation, Azimuth> supports one or more divisions of each kind");
   static_assert(Radial <= 1024 && Elevation <= 1024 && Azimuth <= 1024 && 1LL * Radial * Elevation * Azimuth <= 65536,
                 "SphericalGrid<Radial, Elevation, Azimuth> supports up to 1024 divisions of each kind, 65536 cells");
-  static constexpr int radial = Radial;
-  static constexpr int elevation = Elevation;
-  static constexpr int azimuth = Azimuth;
-  static constexpr int cells = Radial * Elevation * Azimuth;
+  static constexpr int radial = Radial;                       ///< shells
+  static constexpr int elevation = Elevation;                 ///< cells from +z to -z
+  static constexpr int azimuth = Azimuth;                     ///< sectors around z
+  static constexpr int cells = Radial * Elevation * Azimuth;  ///< all of them
 };
 
 /// Shells of equal width: the published default.
 struct LinearRadius {
   static constexpr const char* name = "equal shells";  ///< for layout_of()
-  static constexpr bool is_linear = true;
+  static constexpr bool is_linear = true;              ///< are shells of equal width?
+  /// What a distance below the first border is.
   static constexpr extend::BelowZero below_zero = extend::BelowZero::never;
   /// All borders and middles of shells are multiples of 1 / borders.
   static constexpr int borders(int shells) noexcept { return 2 * shells; }
@@ -4751,6 +4814,8 @@ struct Part {
       "Part<Grid, Signal> supports Occupancy, or a signal derived from extend::Signal<Bins, Kinds...> with "
       "`static extend::simd::F32 measure(at, sources...)`, one source of each kind. See 'How to add a signal' "
       "in include/shortshot/README.md");
+  /// How the sphere is divided, what histograms are of, how wide shells are, the convention of cells, how sums become
+  /// values; what is measured, and the sources that are read, each once.
   using Grid = GridType;
   using Signal = std::conditional_t<detail::IsSignal<SignalType>::value, SignalType, Occupancy>;  // one error is enough
   using Scale = RadiusScale;
@@ -4758,10 +4823,10 @@ struct Part {
   using Finish = FinishRule;
   using Signals = typename detail::Distinct<detail::SignalList<>, Signal>::type;
   using Sources = typename Signal::Sources;
-  static constexpr bool has_histogram = Signal::has_histogram;
+  static constexpr bool has_histogram = Signal::has_histogram;                    ///< else a plain sum
   static constexpr int values = has_histogram ? Cells::values(Signal::bins) : 1;  ///< of one cell
-  static constexpr int size = Grid::cells * values;
-  static constexpr int weight_cells = 0;
+  static constexpr int size = Grid::cells * values;                               ///< of all cells
+  static constexpr int weight_cells = 0;    ///< sums of votes that are kept besides
   static constexpr bool has_signs = false;  ///< values may be below 0
 
   /// Position of one value within the part.
@@ -4797,6 +4862,7 @@ struct CellMeans {
   static_assert(sizeof...(SignedSignals) >= 1 && ((SignedSignals::is_signed) && ...),
                 "CellMeans<Grid, Cells, Finish, Shrink, Signals...> supports one or more signals with is_signed");
   static_assert(ShrinkPercent >= 1, "CellMeans supports shrinkage of 1 percent or more: a cell may be empty");
+  /// As those of a Part.
   using Grid = GridType;
   using Scale = LinearRadius;
   using Cells = CellConvention;
@@ -4806,11 +4872,11 @@ struct CellMeans {
   using Signals = typename detail::Distinct<detail::SignalList<>, SignedSignals...>::type;
   using Sources = typename detail::DistinctKinds<extend::SourceKinds<>, typename SignedSignals::Sources...>::type;
   static constexpr int values = static_cast<int>(sizeof...(SignedSignals));  ///< of one cell
-  static constexpr int size = Grid::cells * values;
-  static constexpr int weight_cells = Grid::cells;  ///< sums of votes that are kept besides
-  static constexpr int shrink_percent = ShrinkPercent;
-  static constexpr bool has_signs = (SignedSignals::has_signs || ...);
-  static constexpr int bits = Counts::bits;
+  static constexpr int size = Grid::cells * values;                          ///< of all cells
+  static constexpr int weight_cells = Grid::cells;                           ///< sums of votes that are kept besides
+  static constexpr int shrink_percent = ShrinkPercent;                       ///< see above
+  static constexpr bool has_signs = (SignedSignals::has_signs || ...);       ///< values may be below 0
+  static constexpr int bits = Counts::bits;                                  ///< of positions behind the point
 
   /// Position of the mean of signal `k` of one cell within the part.
   [[nodiscard, gnu::always_inline]] static constexpr int index(int r, int e, int a, int k = 0) noexcept {
@@ -4877,6 +4943,7 @@ struct Descriptor {
       "Descriptor<Voting, Parts...> supports a voting rule with weight_bits, votes<Axes>, split(axis, position, "
       "unit) and combine<Axes>(axes, shares, unit). See 'How to add a voting rule' in "
       "include/shortshot/README.md");
+  /// How a point is shared among cells.
   using Voting = std::conditional_t<detail::IsVotingRule<VotingRule>::value, VotingRule, HardVoting>;
   static_assert(sizeof...(Parts) >= 1, "Descriptor<Voting, Parts...> supports one or more parts");
 
@@ -4896,11 +4963,11 @@ struct Descriptor {
 
   /// The signals that are measured, each once.
   using Signals = typename detail::DistinctOf<detail::SignalList<>, typename Parts::Signals...>::type;
-  using LabRule = typename detail::LabRuleOf<Signals>::type;
+  using LabRule = typename detail::LabRuleOf<Signals>::type;  ///< by which colors are converted; void: none
   /// Are colors compared with the neighborhood's mean? Then key points need none.
   static constexpr bool compares_with_mean = detail::compare_with_mean(Signals{});
 
-  using Cells = typename detail::FirstOf<typename Parts::Cells...>::type;
+  using Cells = typename detail::FirstOf<typename Parts::Cells...>::type;  ///< cell convention of all parts
   static_assert((std::is_same<typename Parts::Cells, Cells>::value && ...),
                 "Descriptor supports one cell convention for all its parts");
 
@@ -4976,11 +5043,11 @@ template <class Grid, int ShapeBins, int ColorBins, class Voting = ShotVoting, c
 using Cshot = Descriptor<Voting, Part<Grid, NormalCosine<ShapeBins>, RadiusScale, ShotCells>,
                          Part<Grid, ColorDistance<ColorBins, LabRule>, RadiusScale, ShotCells>>;
 
-using Ssh32 = Ssh<SphericalGrid<2, 2, 8>>;
-using Ssh96 = Ssh<SphericalGrid<3, 4, 8>>;
-using Scsh336 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;
-using Scsh696 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 6>, 25>;
-using IntensityShape336 = IntensityShape<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;
+using Ssh32 = Ssh<SphericalGrid<2, 2, 8>>;                                 ///< of points, 32 values
+using Ssh96 = Ssh<SphericalGrid<3, 4, 8>>;                                 ///< of points, 96 values
+using Scsh336 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;  ///< with colors, 336 values
+using Scsh696 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 6>, 25>;  ///< with colors, 696 values
+using IntensityShape336 = IntensityShape<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;  ///< with intensities
 
 /// SHOT and CSHOT in PCL's sizes and layout, without its two defects: the last bin of a histogram gets its neighbor's
 /// votes (PclVoting says what PCL does), and white has a color of its own (PclLab).
@@ -5460,11 +5527,11 @@ template <std::size_t MaxNeighbors>
 struct Workspace {
   static_assert(MaxNeighbors >= 5 && MaxNeighbors <= max_neighbors,
                 "Workspace<MaxNeighbors> supports 5 (a local reference frame needs as many) to 2^24 neighbors");
-  float dx[MaxNeighbors];
-  float dy[MaxNeighbors];
-  float dz[MaxNeighbors];
-  float d2[MaxNeighbors];
-  std::uint32_t index[MaxNeighbors];
+  float dx[MaxNeighbors];             ///< see Neighborhood, as all of these
+  float dy[MaxNeighbors];             ///< along y
+  float dz[MaxNeighbors];             ///< along z
+  float d2[MaxNeighbors];             ///< squared distances
+  std::uint32_t index[MaxNeighbors];  ///< in the cloud
 };
 
 /// A Workspace of 2 bytes a neighbor (`Index` std::uint32_t: 4) for targets that have more time than memory. Clouds of
@@ -5475,7 +5542,7 @@ struct CompactWorkspace {
                 "CompactWorkspace<MaxNeighbors> supports 5 (a local reference frame needs as many) to 2^24 neighbors");
   static_assert(std::is_same<Index, std::uint16_t>::value || std::is_same<Index, std::uint32_t>::value,
                 "CompactWorkspace<MaxNeighbors, Index> supports uint16_t and uint32_t");
-  Index index[MaxNeighbors];
+  Index index[MaxNeighbors];  ///< see CompactNeighborhood
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -7427,6 +7494,7 @@ struct Support {
   Radius frame_radius;  ///< of the local reference frame (LRF); may be smaller or larger
   Viewpoint viewpoint;  ///< turns the frames' z
 
+  /// The same radius for descriptor and frame; no viewpoint.
   [[gnu::always_inline]] constexpr Support(Radius r) noexcept  // NOLINT: see above
       : radius(r), frame_radius(r) {}
   [[gnu::always_inline]] constexpr Support(float r) noexcept : Support(Radius(r)) {}  // NOLINT: see above
@@ -8054,11 +8122,11 @@ inline namespace SHORTSHOT_TYPES {
 /// view.
 template <class Index>
 struct GridMemory {
-  Index* order;
-  Index* cell_end;
-  float* xyz;
-  std::size_t point_capacity;
-  std::size_t cell_capacity;
+  Index* order;                ///< the points' indices, cell by cell
+  Index* cell_end;             ///< where each cell's points end
+  float* xyz;                  ///< null: none
+  std::size_t point_capacity;  ///< of order
+  std::size_t cell_capacity;   ///< of cell_end
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -8307,8 +8375,8 @@ template <class Index, class Neighbors>
 #if !defined(SHORTSHOT_FOR_AVX2)  // the single header reads itself up to here (dispatch/kernel_for_avx2.hpp)
 
 // shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initializer, no
-// libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
-// <type_traits> and <utility> of the standard library.
+// libm (but sqrtf on cores without a floating-point unit). Needs `<array>`, `<cstddef>`, `<cstdint>`, `<cstring>`,
+// `<type_traits>` and `<utility>` of the standard library.
 #ifndef SHORTSHOT_KERNEL_HPP
 #define SHORTSHOT_KERNEL_HPP
 
@@ -8822,9 +8890,9 @@ inline namespace SHORTSHOT_TYPES {
 template <class D, int Group = 4>
 struct BinaryDescriptor {
   static_assert(Group >= 2 && Group <= 8, "BinaryDescriptor<D, Group> supports groups of 2 to 8 values");
-  static constexpr int bits = D::size;
-  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(bits) + 7) / 8;
-  std::uint8_t bytes[size_bytes];
+  static constexpr int bits = D::size;                                                 ///< one per value
+  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(bits) + 7) / 8;  ///< of all bits
+  std::uint8_t bytes[size_bytes];  ///< bit j is bit j % 8 of byte j / 8
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -9194,12 +9262,12 @@ struct CodedDescriptor {
   static_assert(Scale >= 1 && Scale <= 65536, "CodedDescriptor<D, Bits, Scale> supports scales from 1 to 65536");
   static_assert(D::size >= 1 && D::size <= 66051, "CodedDescriptor<D, Bits> supports 1 to 66051 values");
   static_assert(std::uint64_t{66051} * 255 * 255 <= 0xFFFFFFFFu, "squared_distance() cannot overflow");
-  static constexpr int size = D::size;
-  static constexpr int bits = Bits;
-  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(D::size) * Bits + 7) / 8;
+  static constexpr int size = D::size;                                                           ///< number of values
+  static constexpr int bits = Bits;                                                              ///< of each value
+  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(D::size) * Bits + 7) / 8;  ///< of all values
   /// The L2 distance of two descriptors is step * sqrt(squared_distance(a, b)).
   static constexpr float step = 1.0f / static_cast<float>(Scale);
-  std::uint8_t bytes[size_bytes];
+  std::uint8_t bytes[size_bytes];  ///< the codes
 };
 
 /// One byte a value, a quarter of its floats: 336 bytes for SCSH-336, with steps of 1/512 from 0 to 255/512.
@@ -9324,9 +9392,9 @@ inline namespace SHORTSHOT_TYPES {
 template <class D>
 struct HalfDescriptor {
   static_assert(D::size >= 1 && D::size <= 66051, "HalfDescriptor<D> supports 1 to 66051 values");
-  static constexpr int size = D::size;
-  static constexpr std::size_t size_bytes = 2 * static_cast<std::size_t>(D::size);
-  std::uint16_t values[D::size];
+  static constexpr int size = D::size;                                              ///< number of values
+  static constexpr std::size_t size_bytes = 2 * static_cast<std::size_t>(D::size);  ///< of all values
+  std::uint16_t values[D::size];                                                    ///< as binary16, one per value
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -9469,9 +9537,9 @@ template <class D, int Bits = 352, int Draws = 4>
 struct SumBits {
   static_assert(Bits >= 8 && Bits <= 65536 && Bits % 8 == 0, "SumBits<D, Bits> supports whole bytes: 8 to 65536 bits");
   static_assert(Draws >= 2 && Draws <= 64, "SumBits<D, Bits, Draws> supports 2 to 64 draws for a bit");
-  static constexpr int bits = Bits;
-  static constexpr std::size_t size_bytes = static_cast<std::size_t>(Bits) / 8;
-  std::uint8_t bytes[size_bytes];
+  static constexpr int bits = Bits;                                              ///< number of them
+  static constexpr std::size_t size_bytes = static_cast<std::size_t>(Bits) / 8;  ///< of all bits
+  std::uint8_t bytes[size_bytes];                                                ///< bit j is bit j % 8 of byte j / 8
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -9629,6 +9697,7 @@ inline constexpr std::uint64_t storage_number = [] {
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
 
+/// How objects are looked for. Trivially copyable.
 struct RecognizerOptions {
   float bandwidth = 0.03f;      ///< h of the density of votes, 1e-6 to 1e6 meters: about how far votes miss the center
   std::uint32_t neighbors = 1;  ///< nearest codewords that each descriptor activates, 1 to 1024
@@ -9637,10 +9706,10 @@ struct RecognizerOptions {
 
 /// An object that may be there; see Recognizer::class_name() and instance_name() for the numbers. Trivial type.
 struct Hypothesis {
-  std::uint32_t object_class;
-  std::uint32_t instance;
-  Point center;  ///< where that of the training views is in this view
-  float score;   ///< density of the class' votes there: 1 for each that hits it, exp(-d^2 / (2 h^2)) if d meters off
+  std::uint32_t object_class;  ///< number of the class
+  std::uint32_t instance;      ///< number of the instance, among those of all classes
+  Point center;                ///< where that of the training views is in this view
+  float score;  ///< density of the class' votes there: 1 for each that hits it, exp(-d^2 / (2 h^2)) if d meters off
 };
 
 /// A key point as recognizers need it. Trivial type.
@@ -10625,6 +10694,7 @@ class MicroRecognizer {
                 "1 to 1024 codewords for each");
 
  public:
+  /// Most votes that a view can have.
   static constexpr std::size_t max_votes = MaxKeypoints * MaxActivated;
 
   /// All zeros: static ones take no flash and no code.
@@ -10862,13 +10932,18 @@ inline namespace SHORTSHOT_CODE {
 /// A search (search.hpp) without an index.
 class BruteSearch {
  public:
+  /// Borrows the cloud's memory; a view that cannot be read is its status().
   explicit BruteSearch(const CloudView& cloud) noexcept
       : points_(cloud.points), size_(cloud.size), status_(validate(cloud)) {}
 
+  /// ok, or why the cloud cannot be read.
   [[nodiscard]] Status status() const noexcept { return status_; }
 
+  /// Points of the cloud, valid or not.
   [[nodiscard]] std::size_t cloud_size() const noexcept { return size_; }
 
+  /// The points of the cloud within `radius` of `center`, into an empty neighborhood `out`: ok, too_many_neighbors, or
+  /// status(). O(points); allocates nothing; reentrant.
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     extend::clear(out, center);
@@ -10924,11 +10999,14 @@ class GridIndex {
 
   /// What the last build() returned; empty_cloud before the first one (in memory that started as zeros).
   [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  /// Points of the cloud, valid or not.
   [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
   /// Number of points in the index: the cloud's valid ones.
   [[nodiscard]] std::size_t size() const noexcept { return grid_.size(); }
 
+  /// The points of the cloud within `radius` of `center`, into an empty neighborhood `out`: ok, too_many_neighbors, or
+  /// status(). Allocates nothing; reentrant.
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     return grid_.gather({memory_.order, memory_.cell_end, memory_.xyz}, center, radius, out);
@@ -10951,6 +11029,7 @@ class StaticGrid {
   static_assert(MaxPoints >= 1 && MaxCells >= 1, "StaticGrid<MaxPoints, MaxCells> supports one or more of both");
 
  public:
+  /// Type of its indices.
   using Index = std::conditional_t<(MaxPoints <= 65535), std::uint16_t, std::uint32_t>;
 
   /// See GridIndex::build(), but for outliers.
@@ -10959,6 +11038,7 @@ class StaticGrid {
   }
 
   [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  /// Points of the cloud, valid or not.
   [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
   template <class Neighbors>
@@ -11106,8 +11186,11 @@ class OrganizedSearch {
   /// What the last build() returned; empty_cloud before the first one (in memory that started as zeros).
   [[nodiscard]] Status status() const noexcept { return cloud_.size == 0 ? Status::empty_cloud : status_; }
 
+  /// Points of the cloud, valid or not.
   [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_.size; }
 
+  /// The points of the cloud within `radius` of `center`, into an empty neighborhood `out`: ok, too_many_neighbors, or
+  /// status(). Allocates nothing; reentrant.
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     extend::clear(out, center);
@@ -11682,10 +11765,10 @@ inline namespace SHORTSHOT_TYPES {
 /// missing_intensities (there is none), bad_field, unread_channel (a type or a number of elements that is not read, or
 /// a part of it is missing), field_outside.
 struct PointCloud2Channels {
-  Status coordinates;
-  Status colors;
-  Status normals;
-  Status intensities;
+  Status coordinates;  ///< fields x, y and z
+  Status colors;       ///< rgb or rgba
+  Status normals;      ///< normal_x, normal_y and normal_z
+  Status intensities;  ///< intensity
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -12243,9 +12326,13 @@ class GridSearch {
     return Status::ok;
   }
 
+  /// What the last build() returned; empty_cloud before the first one.
   [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  /// Points of the cloud, valid or not.
   [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
+  /// The points of the cloud within `radius` of `center`, into an empty neighborhood `out`: ok, too_many_neighbors, or
+  /// status(). Allocates nothing; reentrant.
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     return detail::gather_widest(grid_, {order_.data(), cell_end_.data(), xyz_.data()}, center, radius, out);
@@ -13877,6 +13964,7 @@ class LabTable {
     roots_.swap(roots);
   }
 
+  /// What to_lab<Rule>() gives, bit for bit; after fill().
   [[nodiscard]] Lab operator()(Rgb color) const noexcept {
     constexpr Ratios white{detail::white_xyz[0], detail::white_xyz[1], detail::white_xyz[2], 1.0f};
     const Ratios* const shares = shares_.data();
@@ -13923,7 +14011,9 @@ struct Features {
   std::vector<std::uint32_t> neighbors;           ///< found within the larger radius, the key point itself included
                                                   ///< (the frame's counts if there is one)
 
+  /// Number of rows.
   [[nodiscard, gnu::always_inline]] std::size_t size() const noexcept { return status.size(); }
+  /// Row `row`: D::size values.
   [[nodiscard, gnu::always_inline]] const float* operator[](std::size_t row) const noexcept {
     return values.data() + row * static_cast<std::size_t>(D::size);
   }
@@ -14600,7 +14690,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// Looks at what is about to be described: is the search one over this cloud, has the radius the cloud's unit, can
 /// float hold its coordinates, are there points that are none? Numbers for a program to check once, when a sensor or a
-/// data set is new; `./run demo --diagnose` says in sentences what they mean.
+/// data set is new; the demo's option `--diagnose` says in sentences what they mean.
 ///
 /// `keypoints`  what will be described, as for extract(); an index outside of the cloud counts as off the surface
 ///
@@ -15005,7 +15095,7 @@ class ByteReader {
 // A file is never written to where it lies: a disk that is full, or a program that ends, would leave half of the new
 // file and nothing of the old one. What is new is written beside it, and then takes its name, which is one step.
 //
-// By the C library: <fstream> takes more time to compile than all that would be used of it.
+// By the C library: `<fstream>` takes more time to compile than all that would be used of it.
 #ifndef SHORTSHOT_STORE_REPLACE_FILE_HPP
 #define SHORTSHOT_STORE_REPLACE_FILE_HPP
 
@@ -15329,13 +15419,14 @@ inline namespace SHORTSHOT_TYPES {
 /// SumBits of a D. One row per key point, in the order of the features that they were made of.
 template <class Stored>
 struct StoredFeatures {
-  std::vector<Stored> descriptors;  ///< of zeros where the status is not ok
-  std::vector<Status> status;       ///< the others as Features have them
-  std::vector<KeyPoint> keypoints;
-  std::vector<Frame> frames;
-  std::vector<FrameConfidence> frame_confidence;
-  std::vector<std::uint32_t> neighbors;
+  std::vector<Stored> descriptors;                ///< of zeros where the status is not ok
+  std::vector<Status> status;                     ///< the others as Features have them
+  std::vector<KeyPoint> keypoints;                ///< what was described
+  std::vector<Frame> frames;                      ///< of each
+  std::vector<FrameConfidence> frame_confidence;  ///< how sure each of them is
+  std::vector<std::uint32_t> neighbors;           ///< found within the larger radius
 
+  /// Number of rows.
   [[nodiscard, gnu::always_inline]] std::size_t size() const noexcept { return status.size(); }
 };
 
@@ -15473,9 +15564,9 @@ struct DescriptorRows {
 
 /// Descriptors with the places and frames that they were made at.
 struct FeatureRows {
-  DescriptorRows descriptors;
-  const KeyPoint* keypoints;  ///< one per row
-  const Frame* frames;        ///< one per row
+  DescriptorRows descriptors;  ///< the rows
+  const KeyPoint* keypoints;   ///< one per row
+  const Frame* frames;         ///< one per row
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -15567,7 +15658,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// For every two of them. (Registers are loaded from it.)
 struct HalfByteDistances {
-  alignas(16) std::uint8_t of[16][16];
+  alignas(16) std::uint8_t of[16][16];  ///< of[a][b]: the bits in which half bytes a and b differ
   constexpr HalfByteDistances() noexcept : of{} {
     for (unsigned a = 0; a < 16; ++a) {
       for (unsigned b = 0; b < 16; ++b) {
@@ -15876,36 +15967,47 @@ struct HalfBytes {
 namespace shortshot::extend::simd {
 inline namespace SHORTSHOT_CODE {
 
+/// Sums of products, and of bits that differ; simd_sums.hpp says what their members are.
 struct LargeCodes {
-  using Code = std::uint16_t;
-  using Limit = std::int32_t;
-  using Cell = std::uint16_t;
+  using Code = std::uint16_t;  ///< an element of the database's rows
+  using Limit = std::int32_t;  ///< a number of the size of a sum
+  using Cell = std::uint16_t;  ///< an element of a panel
+  /// Rows of one Sums; codes and cells of one step.
   static constexpr std::size_t rows = 1, step_codes = 2, step_cells = 2;
+  /// The sums of `rows` rows.
   struct Sums {
-    std::uint32_t v;
+    std::uint32_t v;  ///< the sum
   };
 
+  /// One step of as many rows of codes as a panel has.
   static void pack(const Code* const* of_rows, Cell* to) noexcept {
     to[0] = of_rows[0][0];
     to[1] = of_rows[0][1];
   }
+  /// The sums before the first step.
   [[nodiscard]] static Sums none() noexcept { return {0}; }
+  /// One step more, of a panel and a row.
   [[nodiscard, gnu::always_inline]] static Sums add(Sums sums, const Cell* panel, const Code* codes) noexcept {
     return {sums.v + std::uint32_t{panel[0]} * codes[0] + std::uint32_t{panel[1]} * codes[1]};
   }
+  /// Is any product above, or number of bits below, what the panel's row and the other row say?
   [[nodiscard, gnu::always_inline]] static bool any_near(Sums sums, const Limit* limits, Limit of_row) noexcept {
     return static_cast<std::int32_t>(sums.v) > *limits + of_row;
   }
+  /// As 32-bit integers, in the order of the rows.
   static void widen(Sums sums, I32* to) noexcept { to[0] = all_int(static_cast<std::int32_t>(sums.v)); }
 };
 
+/// Products of numbers from 0 to 15, for up to 64 of them.
 using SmallCodes = LargeCodes;
 
+/// Bits in which half bytes differ, one half byte at a time, for up to 62 of them.
 struct HalfBytes {
   using Code = std::uint8_t;
   using Limit = std::uint8_t;
   using Cell = std::uint8_t;
   static constexpr std::size_t rows = 1, step_codes = 1, step_cells = 1;
+  /// The sums of `rows` rows.
   struct Sums {
     std::int32_t v;
   };
@@ -16362,6 +16464,7 @@ struct CodedRows {
   float step;                 ///< CodedDescriptor's
   const Status* status;       ///< one per row: those that are not ok are left out; null: all are ok
 
+  /// Can they be compared: of the same size and step?
   [[nodiscard, gnu::always_inline]] bool fits(const CodedRows& other) const noexcept {
     return detail::fit(*this, other) && step == other.step;
   }
@@ -16370,10 +16473,12 @@ struct CodedRows {
                                                           std::size_t others_row) const noexcept {
     return detail::squared_code_distance<Bits>(bytes + row * size, other.bytes + others_row * size, size);
   }
+  /// The L2 distance, from what compare() gave.
   [[nodiscard, gnu::always_inline]] float distance(std::uint32_t compared) const noexcept {
     return step * extend::simd::sqrt(static_cast<float>(compared));
   }
 };
+/// Rows of 8 bits a value, and of 4.
 using ByteRows = CodedRows<8>;
 using NibbleRows = CodedRows<4>;
 
@@ -16385,11 +16490,14 @@ struct BitRows {
   std::size_t size;           ///< bytes in a row
   const Status* status;       ///< one per row: those that are not ok are left out; null: all are ok
 
+  /// Can they be compared: of the same size?
   [[nodiscard, gnu::always_inline]] bool fits(const BitRows& other) const noexcept { return detail::fit(*this, other); }
+  /// The number of bits that differ.
   [[nodiscard, gnu::always_inline]] std::uint32_t compare(std::size_t row, const BitRows& other,
                                                           std::size_t others_row) const noexcept {
     return static_cast<std::uint32_t>(hamming_distance(bytes + row * size, other.bytes + others_row * size, size));
   }
+  /// The same as a float.
   [[nodiscard, gnu::always_inline]] float distance(std::uint32_t compared) const noexcept {
     return static_cast<float>(compared);
   }
@@ -16997,15 +17105,15 @@ inline constexpr std::uint32_t no_row = 0xFFFFFFFFu;
 
 /// A row of the database and its distance from the query.
 struct Match {
-  std::uint32_t row;
-  float distance;
+  std::uint32_t row;  ///< in the database; no_row: none
+  float distance;     ///< from the query, as its format counts; larger: farther
 };
 
 /// A row of each of two sets, and their distance.
 struct MatchedPair {
-  std::uint32_t source;
-  std::uint32_t target;
-  float distance;
+  std::uint32_t source;  ///< row of the first set
+  std::uint32_t target;  ///< row of the second set
+  float distance;        ///< as their format counts
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -17370,8 +17478,8 @@ inline namespace SHORTSHOT_TYPES {
 /// The share that each class, and each instance, has in the codewords that were activated: 0 to 1, all of them 1
 /// together, or all zero if none was.
 struct ActivationShares {
-  std::vector<float> classes;
-  std::vector<float> instances;
+  std::vector<float> classes;    ///< one per class, by number
+  std::vector<float> instances;  ///< one per instance, by number
 };
 
 /// Recognizes objects by their descriptors. Every descriptor of the training views is a codeword. One of a new view
@@ -17392,6 +17500,7 @@ struct ActivationShares {
 class Recognizer {
  public:
   Recognizer() = default;
+  /// Not trained yet. Wrong options are bad_option when it is asked.
   explicit Recognizer(const RecognizerOptions& options) noexcept : options_(options) {}
 
   /// One that was moved from has its options still, and was never trained.
@@ -17404,9 +17513,12 @@ class Recognizer {
   }
   ~Recognizer() = default;
 
+  /// What it was made with, or set_options() gave.
   [[nodiscard]] const RecognizerOptions& options() const noexcept { return options_; }
+  /// For calls to come; the training stays as it is.
   void set_options(const RecognizerOptions& options) noexcept { options_ = options; }
 
+  /// Classes, instances and codewords of all training so far.
   [[nodiscard]] std::size_t class_count() const noexcept { return codebook_.classes.size(); }
   [[nodiscard]] std::size_t instance_count() const noexcept { return codebook_.instances.size(); }
   [[nodiscard]] std::size_t codeword_count() const noexcept { return codebook_.codewords.size(); }
@@ -17639,14 +17751,14 @@ inline namespace SHORTSHOT_TYPES {
 
 /// A rigid motion: target = rotation * source + translation, in meters. Trivial type.
 struct Pose {
-  float rotation[9];  ///< row by row; orthonormal, determinant +1
-  float translation[3];
+  float rotation[9];     ///< row by row; orthonormal, determinant +1
+  float translation[3];  ///< meters
 };
 
 /// Two points that may be the same one of an object, before and after its motion.
 struct PointPair {
-  Point source;
-  Point target;
+  Point source;  ///< before
+  Point target;  ///< after
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -18933,13 +19045,17 @@ class NanoflannSearch {
   NanoflannSearch(const NanoflannSearch&) = delete;  // the tree refers to points_
   NanoflannSearch& operator=(const NanoflannSearch&) = delete;
 
+  /// ok, empty_cloud (no valid point), or why the cloud cannot be read.
   [[nodiscard]] Status status() const noexcept {
     const Status usable = validate(points_.cloud);
     return usable == Status::ok && points_.valid.empty() ? Status::empty_cloud : usable;
   }
 
+  /// Points of the cloud, valid or not.
   [[nodiscard]] std::size_t cloud_size() const noexcept { return points_.cloud.size; }
 
+  /// The points of the cloud within `radius` of `center`, into an empty neighborhood `out`: ok, too_many_neighbors, or
+  /// status(). Allocates nothing; reentrant.
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     extend::clear(out, center);

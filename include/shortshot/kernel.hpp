@@ -1,6 +1,6 @@
 // shortshot/kernel.hpp: the part for firmware: no heap, no exceptions, no RTTI, no double, no static initializer, no
-// libm (but sqrtf on cores without a floating-point unit). Needs <array>, <cstddef>, <cstdint>, <cstring>,
-// <type_traits> and <utility> of the standard library.
+// libm (but sqrtf on cores without a floating-point unit). Needs `<array>`, `<cstddef>`, `<cstdint>`, `<cstring>`,
+// `<type_traits>` and `<utility>` of the standard library.
 #pragma once
 
 #include "descriptor/compact.hpp"

@@ -14,7 +14,7 @@ inline namespace SHORTSHOT_TYPES {
 // (version 14 of it does not know attributes of enumerations)
 // clang-format off
 enum class [[nodiscard]] Status : std::uint8_t {
-  ok,
+  ok,                  ///< nothing is wrong
   empty_cloud,         ///< the cloud has no point, or no point with three finite coordinates
   bad_view,            ///< the view's memory cannot be what it says (null pointer, field outside the point, too short)
   bad_radius,          ///< a radius is not a finite number above zero, or its square leaves the range of float
@@ -60,6 +60,7 @@ enum class [[nodiscard]] Status : std::uint8_t {
 };
 // clang-format on
 
+/// Number of statuses.
 inline constexpr int status_count = static_cast<int>(Status::not_written) + 1;
 
 }  // namespace SHORTSHOT_TYPES

@@ -10,7 +10,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// For every two of them. (Registers are loaded from it.)
 struct HalfByteDistances {
-  alignas(16) std::uint8_t of[16][16];
+  alignas(16) std::uint8_t of[16][16];  ///< of[a][b]: the bits in which half bytes a and b differ
   constexpr HalfByteDistances() noexcept : of{} {
     for (unsigned a = 0; a < 16; ++a) {
       for (unsigned b = 0; b < 16; ++b) {

@@ -14,6 +14,7 @@
 namespace shortshot::extend::simd {
 inline namespace SHORTSHOT_CODE {
 
+/// Elements of a register of 32 bits each.
 inline constexpr std::size_t lanes = 1;
 
 /// Does one instruction bring an integer to 0..2^k - 1?
@@ -26,8 +27,9 @@ inline constexpr bool saturates = false;
 /// Does one instruction add to memory, at any constant distance from where a register points?
 inline constexpr bool adds_to_memory = true;
 
+/// A register of floats, of integers (signed or not), of conditions, and of integers of 16 bits, twice as many.
 struct F32 {
-  float v;
+  float v;  ///< the lanes, in a form that is the shim's own business
 };
 struct I32 {
   std::int32_t v;
@@ -42,7 +44,7 @@ struct SignMask {
   operator Mask() const noexcept { return {v != 0}; }  // NOLINT: it is one
 };
 struct I16 {
-  std::int16_t v __attribute__((vector_size(4)));
+  std::int16_t v __attribute__((vector_size(4)));  ///< the lanes
 };
 
 /// Square root of one number, exactly rounded. Not std::sqrt, which also calls libm for its errno; where there is no
@@ -61,11 +63,13 @@ struct I16 {
 #endif
 }
 
+/// A register of what lies from `p` on, and the other way; no alignment is assumed.
 [[nodiscard]] inline F32 load(const float* p) noexcept { return {*p}; }
 [[nodiscard]] inline I32 load(const std::uint32_t* p) noexcept { return {static_cast<std::int32_t>(*p)}; }
 inline void store(float* p, F32 a) noexcept { *p = a.v; }
 inline void store(std::int32_t* p, I32 a) noexcept { *p = a.v; }
 inline void store(std::uint32_t* p, I32 a) noexcept { *p = static_cast<std::uint32_t>(a.v); }
+/// `value` in all lanes.
 [[nodiscard]] inline F32 all(float value) noexcept { return {value}; }
 /// value_at(k) in lane k.
 template <class Function>
@@ -73,6 +77,7 @@ template <class Function>
   return {value_at(0)};
 }
 
+/// Lane by lane, each operation rounded as IEEE 754 says; a comparison with NaN is false, but for != (true).
 [[nodiscard]] inline F32 operator+(F32 a, F32 b) noexcept { return {a.v + b.v}; }
 [[nodiscard]] inline F32 operator-(F32 a, F32 b) noexcept { return {a.v - b.v}; }
 [[nodiscard]] inline F32 operator*(F32 a, F32 b) noexcept { return {unfused(a.v * b.v)}; }
@@ -85,6 +90,7 @@ template <class Function>
 [[nodiscard]] inline Mask operator&(Mask a, Mask b) noexcept { return {a.v && b.v}; }
 [[nodiscard]] inline Mask operator|(Mask a, Mask b) noexcept { return {a.v || b.v}; }
 
+/// Lane by lane. min() and max() give b where one of the two is NaN.
 [[nodiscard]] inline F32 sqrt(F32 a) noexcept { return {sqrt(a.v)}; }
 [[nodiscard]] inline F32 abs(F32 a) noexcept { return {__builtin_fabsf(a.v)}; }
 [[nodiscard]] inline F32 min(F32 a, F32 b) noexcept { return {a.v < b.v ? a.v : b.v}; }
@@ -96,6 +102,7 @@ template <class Function>
 [[nodiscard]] inline F32 negate(Mask m, F32 a) noexcept { return {m.v ? -a.v : a.v}; }
 /// a where m, else zero.
 [[nodiscard]] inline F32 keep(Mask m, F32 a) noexcept { return {m.v ? a.v : 0.0f}; }
+/// Is it set in any lane, in every lane?
 [[nodiscard]] inline bool any(Mask m) noexcept { return m.v; }
 [[nodiscard]] inline bool every(Mask m) noexcept { return m.v; }
 /// a + 1 where m, else a.
@@ -113,6 +120,7 @@ template <class Function>
   std::memcpy(&value.v, &a.v, sizeof value.v);
   return value;
 }
+/// Rounded to nearest, ties to even.
 [[nodiscard]] inline F32 to_float(I32 a) noexcept { return {static_cast<float>(a.v)}; }
 
 /// Towards zero; |a| must stay below 2^31.
@@ -136,6 +144,7 @@ template <class Function>
 
 /// Lanes of integers.
 [[nodiscard]] inline I32 all_int(std::int32_t value) noexcept { return {value}; }
+/// Lane by lane, modulo 2^32; shifts and comparisons are those of signed numbers.
 [[nodiscard]] inline I32 operator-(I32 a, I32 b) noexcept { return {a.v - b.v}; }
 [[nodiscard]] inline I32 operator&(I32 a, I32 b) noexcept { return {a.v & b.v}; }
 [[nodiscard]] inline Mask operator==(I32 a, I32 b) noexcept { return {a.v == b.v}; }
@@ -150,6 +159,7 @@ template <class Function>
 [[nodiscard]] inline I32 small_product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
 /// For numbers from 0 to 2^31 - 1, as is the product.
 [[nodiscard]] inline I32 product(I32 a, I32 b) noexcept { return {a.v * b.v}; }
+/// Is the sign bit set?
 [[nodiscard]] inline SignMask is_negative(I32 a) noexcept { return {a.v >> 31}; }
 /// -1 where m, else 1.
 [[nodiscard]] inline I32 minus_one_or_one(SignMask m) noexcept { return {m.v | 1}; }
@@ -173,7 +183,9 @@ template <class Function>
   return both;
 }
 [[nodiscard]] inline I16 narrow(Mask a, Mask b) noexcept { return narrow(I32{a.v ? -1 : 0}, I32{b.v ? -1 : 0}); }
+/// Lane by lane, modulo 2^16.
 [[nodiscard]] inline I16 operator*(I16 a, I16 b) noexcept { return {a.v * b.v}; }
+/// To memory without any alignment, in order.
 inline void store(std::int16_t* p, I16 a) noexcept { std::memcpy(p, &a, sizeof a); }
 
 /// What the lane has in a, b, c and d.
@@ -195,9 +207,10 @@ inline void store(std::int16_t* p, I16 a) noexcept { std::memcpy(p, &a, sizeof a
 
 /// How store() packs the lanes where a mask is set.
 struct Packing {
-  std::uint32_t count;
+  std::uint32_t count;  ///< lanes that are set
 };
 
+/// How store() packs the lanes where `m` is set.
 [[nodiscard]] inline Packing packing(Mask m) noexcept { return {m.v ? 1u : 0u}; }
 
 /// The lanes where the mask is set, one behind the other; what is written behind them, up to a register's length, means

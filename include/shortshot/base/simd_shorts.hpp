@@ -19,6 +19,7 @@ inline namespace SHORTSHOT_CODE {
   return all;
 }
 
+/// As those of I32, on 16 bits: sums are modulo 2^16, and a mask is -1 where it is set, else 0.
 [[nodiscard]] inline I16 operator+(I16 a, I16 b) noexcept { return {a.v + b.v}; }
 [[nodiscard]] inline I16 operator-(I16 a, I16 b) noexcept { return {a.v - b.v}; }
 [[nodiscard]] inline I16 operator&(I16 a, I16 b) noexcept { return {a.v & b.v}; }

@@ -38,6 +38,7 @@ template <class Float>
   return __builtin_is_constant_evaluated() ? product : detail::hidden(product);
 }
 
+/// The inner product, summed as x + z first, then y.
 [[nodiscard]] inline float dot(const float (&a)[3], const float (&b)[3]) noexcept {
   return (unfused(a[0] * b[0]) + unfused(a[2] * b[2])) + unfused(a[1] * b[1]);
 }

@@ -201,7 +201,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// Looks at what is about to be described: is the search one over this cloud, has the radius the cloud's unit, can
 /// float hold its coordinates, are there points that are none? Numbers for a program to check once, when a sensor or a
-/// data set is new; `./run demo --diagnose` says in sentences what they mean.
+/// data set is new; the demo's option `--diagnose` says in sentences what they mean.
 ///
 /// `keypoints`  what will be described, as for extract(); an index outside of the cloud counts as off the surface
 ///

@@ -29,7 +29,9 @@ struct Features {
   std::vector<std::uint32_t> neighbors;           ///< found within the larger radius, the key point itself included
                                                   ///< (the frame's counts if there is one)
 
+  /// Number of rows.
   [[nodiscard, gnu::always_inline]] std::size_t size() const noexcept { return status.size(); }
+  /// Row `row`: D::size values.
   [[nodiscard, gnu::always_inline]] const float* operator[](std::size_t row) const noexcept {
     return values.data() + row * static_cast<std::size_t>(D::size);
   }

@@ -61,9 +61,13 @@ class GridSearch {
     return Status::ok;
   }
 
+  /// What the last build() returned; empty_cloud before the first one.
   [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  /// Points of the cloud, valid or not.
   [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
+  /// The points of the cloud within `radius` of `center`, into an empty neighborhood `out`: ok, too_many_neighbors, or
+  /// status(). Allocates nothing; reentrant.
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     return detail::gather_widest(grid_, {order_.data(), cell_end_.data(), xyz_.data()}, center, radius, out);

@@ -17,19 +17,21 @@ inline namespace SHORTSHOT_TYPES {
 /// Three float coordinates per point: where each one of point 0 lies, and how far it is to the same one of point 1.
 /// Covers x y z x y z ..., arrays of structs with padding, and separate x, y, z arrays. No alignment is assumed.
 struct Float3Channel {
+  /// A float of point 0.
   const unsigned char* x;
   const unsigned char* y;
   const unsigned char* z;
-  std::size_t stride_bytes;
+  std::size_t stride_bytes;  ///< bytes from one point to the next
 };
 
 /// Three color bytes per point, sRGB. The three pointers express the order r g b, b g r (PCL, packed floats) or
 /// planes.
 struct ColorChannel {
+  /// A byte of point 0.
   const unsigned char* r;
   const unsigned char* g;
   const unsigned char* b;
-  std::size_t stride_bytes;
+  std::size_t stride_bytes;  ///< bytes from one point to the next
 };
 
 /// How the numbers of a ScalarChannel are stored.
@@ -37,9 +39,9 @@ enum class ScalarType : std::uint8_t { float32, uint8, uint16 };
 
 /// One number per point, as the intensity of a lidar's or a time-of-flight camera's echo.
 struct ScalarChannel {
-  const unsigned char* value;
-  std::size_t stride_bytes;
-  ScalarType type;
+  const unsigned char* value;  ///< of point 0
+  std::size_t stride_bytes;    ///< bytes from one point to the next
+  ScalarType type;             ///< how each is stored
 };
 
 /// What a descriptor may need of a cloud beyond its points; `own`: something that no view has, but the caller.
@@ -50,33 +52,35 @@ enum class Channel : std::uint8_t { colors, normals, intensities, own };
 /// A channel whose first pointer is null is absent. `width * height == size`; height is 1 for unorganized clouds.
 /// Trivial type with plain members, the same in every translation unit; reading it is thread-safe.
 struct CloudView {
-  Float3Channel points;
-  ColorChannel colors;
-  Float3Channel normals;
-  ScalarChannel intensities;
-  std::size_t size;
-  std::size_t width;
-  std::size_t height;
-  Status status;  ///< ok, or why the view could not be made: whoever is asked to read it says so
+  Float3Channel points;       ///< where they are
+  ColorChannel colors;        ///< r null: none
+  Float3Channel normals;      ///< x null: none
+  ScalarChannel intensities;  ///< value null: none
+  std::size_t size;           ///< number of points, valid or not
+  std::size_t width;          ///< columns of the image; `size` for unorganized clouds
+  std::size_t height;         ///< rows of the image, from top to bottom
+  Status status;              ///< ok, or why the view could not be made: whoever is asked to read it says so
 };
 
+/// A position, in the cloud's unit. Trivial type.
 struct Point {
-  float x, y, z;
+  float x, y, z;  ///< coordinates
 };
 
 /// A surface normal: a unit vector, or NaN in all three where a point has none.
 struct SurfaceNormal {
-  float x, y, z;
+  float x, y, z;  ///< components
 };
 
 /// An sRGB color.
 struct Rgb {
-  std::uint8_t r, g, b;
+  std::uint8_t r, g, b;  ///< red, green and blue
 };
 
 }  // namespace SHORTSHOT_TYPES
 inline namespace SHORTSHOT_CODE {
 
+/// Does the cloud have this channel?
 [[nodiscard]] inline bool has_colors(const CloudView& cloud) noexcept { return cloud.colors.r != nullptr; }
 [[nodiscard]] inline bool has_normals(const CloudView& cloud) noexcept { return cloud.normals.x != nullptr; }
 [[nodiscard]] inline bool has_intensities(const CloudView& cloud) noexcept {

@@ -18,13 +18,15 @@ inline namespace SHORTSHOT_CODE {
 /// The intensities of a cloud's own channel, and the key point's: the source of Intensity. A neighbor whose intensity
 /// is not finite has none.
 struct CloudIntensities {
-  static constexpr Channel channel = Channel::intensities;
-  ScalarChannel intensities;  ///< the cloud's
-  float reference;            ///< the key point's
+  static constexpr Channel channel = Channel::intensities;  ///< of the cloud that it reads
+  ScalarChannel intensities;                                ///< the cloud's
+  float reference;                                          ///< the key point's
+  /// What a signal gets that the caller gives no source to. Reads the key point's alone.
   [[nodiscard]] static CloudIntensities at(const CloudView& cloud, const KeyPoint& key) noexcept {
     const bool known = key.has_intensity && extend::math::is_finite(key.intensity);
     return {known ? cloud.intensities : ScalarChannel{}, key.intensity};
   }
+  /// ok or missing_intensities.
   [[nodiscard]] Status status() const noexcept {
     return intensities.value != nullptr ? Status::ok : Status::missing_intensities;
   }

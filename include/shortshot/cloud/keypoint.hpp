@@ -16,15 +16,17 @@ inline namespace SHORTSHOT_TYPES {
 /// intensity that its neighbors' are compared with. Where a descriptor needs one that a key point does not have, the
 /// key point has the status missing_colors or missing_intensities. Trivially copyable.
 struct KeyPoint {
-  Point position;
-  float intensity;
-  Rgb color;
-  bool has_color : 1;
-  bool has_intensity : 1;
+  Point position;          ///< in the cloud's coordinates
+  float intensity;         ///< if has_intensity
+  Rgb color;               ///< if has_color
+  bool has_color : 1;      ///< can its color be compared?
+  bool has_intensity : 1;  ///< can its intensity be compared?
 
   KeyPoint() = default;
+  /// Without a color or an intensity.
   [[gnu::always_inline]] constexpr KeyPoint(const Point& p) noexcept  // NOLINT: a point can be described
       : position(p), intensity(0.0f), color{}, has_color(false), has_intensity(false) {}
+  /// With a color.
   [[gnu::always_inline]] constexpr KeyPoint(const Point& p, const Rgb& rgb) noexcept
       : position(p), intensity(0.0f), color(rgb), has_color(true), has_intensity(false) {}
 };

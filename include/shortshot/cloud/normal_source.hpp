@@ -18,10 +18,13 @@ inline namespace SHORTSHOT_CODE {
 
 /// The normals of a cloud's own channel: the source of NormalCosine. A neighbor whose normal is not finite has none.
 struct CloudNormals {
-  static constexpr Channel channel = Channel::normals;
-  Float3Channel normals;  ///< the cloud's
+  static constexpr Channel channel = Channel::normals;  ///< of the cloud that it reads
+  Float3Channel normals;                                ///< the cloud's
+  /// Borrows the channel; one that is not there is missing_normals.
   explicit CloudNormals(const CloudView& cloud) noexcept : normals(cloud.normals) {}
+  /// What a signal gets that the caller gives no source to.
   [[nodiscard]] static CloudNormals at(const CloudView& cloud, const KeyPoint&) noexcept { return CloudNormals(cloud); }
+  /// ok or missing_normals.
   [[nodiscard]] Status status() const noexcept { return normals.x != nullptr ? Status::ok : Status::missing_normals; }
   /// One register of normals by index.
   [[nodiscard, gnu::always_inline]] extend::PointLanes operator()(const std::uint32_t* index) const noexcept {

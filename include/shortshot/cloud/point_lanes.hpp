@@ -15,7 +15,7 @@ inline namespace SHORTSHOT_CODE {
 
 /// The points of one register.
 struct PointLanes {
-  simd::F32 x, y, z;
+  simd::F32 x, y, z;  ///< of each lane's point
 };
 
 /// Their component along an axis, rounded as PCL and the published code round it: x + z first, then y.
@@ -41,6 +41,7 @@ template <class Function>
   return {read_component(channel.x), read_component(channel.y), read_component(channel.z)};
 }
 
+/// Which points have three finite coordinates.
 [[nodiscard]] inline simd::Mask is_finite(const PointLanes& p) noexcept {
   const simd::I32 exponent = simd::all_int(0x7F800000);
   const auto below = [&](simd::F32 v) { return (bits_of(v) & exponent) - exponent; };  // negative if v is finite
@@ -49,8 +50,8 @@ template <class Function>
 
 /// Some points, and which of them have three finite coordinates; the others are zeros.
 struct ValidLanes {
-  PointLanes points;
-  simd::Mask valid;
+  PointLanes points;  ///< zeros where not valid
+  simd::Mask valid;   ///< which they are
 };
 
 /// `count` points from index `first` on, at most a register, at least one. Beyond them nothing is read or valid.

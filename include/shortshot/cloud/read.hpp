@@ -59,6 +59,7 @@ inline namespace SHORTSHOT_CODE {
 namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
+/// The position of point `index`, which must be below cloud.size, finite or not.
 [[nodiscard]] inline Point point(const CloudView& cloud, std::size_t index) noexcept {
   return extend::read(cloud.points, index);
 }
@@ -79,6 +80,7 @@ inline namespace SHORTSHOT_CODE {
   return extend::read(cloud.intensities, index);
 }
 
+/// Are all three coordinates finite?
 [[nodiscard]] inline bool is_finite(const Point& p) noexcept {
   return extend::math::is_finite(p.x) && extend::math::is_finite(p.y) && extend::math::is_finite(p.z);
 }

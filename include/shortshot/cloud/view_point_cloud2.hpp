@@ -16,10 +16,10 @@ inline namespace SHORTSHOT_TYPES {
 /// missing_intensities (there is none), bad_field, unread_channel (a type or a number of elements that is not read, or
 /// a part of it is missing), field_outside.
 struct PointCloud2Channels {
-  Status coordinates;
-  Status colors;
-  Status normals;
-  Status intensities;
+  Status coordinates;  ///< fields x, y and z
+  Status colors;       ///< rgb or rgba
+  Status normals;      ///< normal_x, normal_y and normal_z
+  Status intensities;  ///< intensity
 };
 
 }  // namespace SHORTSHOT_TYPES

@@ -52,19 +52,24 @@ inline namespace SHORTSHOT_CODE {
 /// every neighbor's bytes when it is asked: no memory per point.
 template <class LabRule>
 struct RgbColors {
-  static constexpr Channel channel = Channel::colors;
-  using Rule = LabRule;
-  ColorChannel bytes;  ///< the cloud's
-  Lab reference;       ///< the key point's
+  static constexpr Channel channel = Channel::colors;  ///< of the cloud that it reads
+  using Rule = LabRule;                                ///< by which it converts
+  ColorChannel bytes;                                  ///< the cloud's
+  Lab reference;                                       ///< the key point's
+  /// Compares with `color`; a channel that is not there is missing_colors.
   RgbColors(const CloudView& cloud, const Rgb& color) noexcept : bytes(cloud.colors) {
     detail::put_lab<LabRule>(color, reference);
   }
+  /// Compares with a reference that the kernel sets: for signals of the MeanColor.
   explicit RgbColors(const CloudView& cloud) noexcept : bytes(cloud.colors), reference{0.0f, 0.0f, 0.0f} {}
+  /// ok or missing_colors.
   [[nodiscard]] Status status() const noexcept { return bytes.r != nullptr ? Status::ok : Status::missing_colors; }
+  /// The color of point `index`, converted.
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept {
     return to_lab<LabRule>(extend::read(bytes, index));
   }
 
+  /// What a signal gets that the caller gives no source to.
   [[nodiscard]] static RgbColors at(const CloudView& cloud, const KeyPoint& key) noexcept {
     RgbColors colors(cloud, key.color);
     if (!key.has_color) colors.bytes.r = nullptr;
@@ -88,8 +93,10 @@ struct RgbColors {
 template <class Color>
 struct StoredColors {
   const Color* lab;  ///< one per point of the cloud, borrowed
-  Lab reference;
+  Lab reference;     ///< the key point's
+  /// ok or missing_colors.
   [[nodiscard]] Status status() const noexcept { return lab != nullptr ? Status::ok : Status::missing_colors; }
+  /// The color of point `index`.
   [[nodiscard]] Lab operator()(std::uint32_t index) const noexcept { return lab[index]; }
 };
 

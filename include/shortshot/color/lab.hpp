@@ -22,7 +22,7 @@ inline namespace SHORTSHOT_TYPES {
 
 /// CIELAB color: L in 0..100 (-16 for PclLab's white), a and b clamped to -120..120 as both existing codes do.
 struct Lab {
-  float L, a, b;
+  float L, a, b;  ///< lightness; green to red; blue to yellow
 };
 
 /// CIELAB as the published SSH / SCSH code computes it: t^0.3333 above the knee, 7.787 t + 16/116 below.
@@ -140,9 +140,10 @@ inline namespace SHORTSHOT_CODE {
 
 /// Lanes of CIELAB colors.
 struct LabLanes {
-  simd::F32 L, a, b;
+  simd::F32 L, a, b;  ///< of each lane
 };
 
+/// The same color in all lanes.
 [[nodiscard]] SHORTSHOT_INLINE LabLanes in_all_lanes(const Lab& color) noexcept {
   return {simd::all(color.L), simd::all(color.a), simd::all(color.b)};
 }

@@ -38,6 +38,7 @@ class LabTable {
     roots_.swap(roots);
   }
 
+  /// What to_lab<Rule>() gives, bit for bit; after fill().
   [[nodiscard]] Lab operator()(Rgb color) const noexcept {
     constexpr Ratios white{detail::white_xyz[0], detail::white_xyz[1], detail::white_xyz[2], 1.0f};
     const Ratios* const shares = shares_.data();

@@ -24,11 +24,13 @@ inline namespace SHORTSHOT_CODE {
 class PackedLab {
  public:
   PackedLab() = default;
+  /// The nearest color that 4 bytes have.
   PackedLab(const Lab& color) noexcept  // NOLINT: converts like a number
       : bits_(code(extend::unfused(color.L * 20.0f), 2000.0f) |
               code(extend::unfused((color.a + 90.0f) * (1.0f / a_step)), 1023.0f) << 11 |
               code(extend::unfused((color.b + 108.875f) * (1.0f / b_step)), 2047.0f) << 21) {}
 
+  /// Back, within half a step.
   operator Lab() const noexcept {  // NOLINT: converts like a number
     return {extend::unfused(static_cast<float>(bits_ & 2047u) * 0.05f),
             extend::unfused(static_cast<float>(bits_ >> 11 & 1023u) * a_step) - 90.0f,

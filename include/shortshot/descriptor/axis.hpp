@@ -22,11 +22,11 @@ enum class BelowZero : std::uint8_t { never, first_cell, nowhere };
 /// Positions along it are fixed-point numbers of cells with `bits` bits behind the point. A value and not a type: where
 /// code is inlined for speed it is as constant, and where it shall be small all axes share one function.
 struct Axis {
-  std::int32_t cells;
-  std::int32_t stride;
-  Beyond end;
-  BelowZero below_zero;
-  std::int8_t bits;
+  std::int32_t cells;       ///< number of them, from 1 on
+  std::int32_t stride;      ///< values from one cell to the next
+  Beyond end;               ///< what lies beyond the last cell
+  BelowZero below_zero;     ///< what a position below zero is
+  std::int8_t bits;         ///< of a position behind the point
   bool reaches_end = true;  ///< may a position be the very end, the upper border of the last cell?
 
   /// A whole cell, and the whole axis.

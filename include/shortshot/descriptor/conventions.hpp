@@ -22,7 +22,7 @@ inline namespace SHORTSHOT_TYPES {
 
 /// Distances of neighboring cells in a grid's layout, in cells.
 struct CellStrides {
-  int radial, elevation, azimuth;
+  int radial, elevation, azimuth;  ///< from one shell, elevation or sector to the next
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -42,6 +42,7 @@ struct PublishedCells {
   template <class Grid>
   static constexpr bool needs_frame = true;
 
+  /// How the cells of a grid are laid out.
   template <class Grid>
   static constexpr extend::CellStrides strides{1, Grid::radial, Grid::radial* Grid::elevation};
   /// Values of a histogram of a signal's `bins`.

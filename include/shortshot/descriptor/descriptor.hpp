@@ -46,6 +46,8 @@ struct Part {
       "Part<Grid, Signal> supports Occupancy, or a signal derived from extend::Signal<Bins, Kinds...> with "
       "`static extend::simd::F32 measure(at, sources...)`, one source of each kind. See 'How to add a signal' "
       "in include/shortshot/README.md");
+  /// How the sphere is divided, what histograms are of, how wide shells are, the convention of cells, how sums become
+  /// values; what is measured, and the sources that are read, each once.
   using Grid = GridType;
   using Signal = std::conditional_t<detail::IsSignal<SignalType>::value, SignalType, Occupancy>;  // one error is enough
   using Scale = RadiusScale;
@@ -53,10 +55,10 @@ struct Part {
   using Finish = FinishRule;
   using Signals = typename detail::Distinct<detail::SignalList<>, Signal>::type;
   using Sources = typename Signal::Sources;
-  static constexpr bool has_histogram = Signal::has_histogram;
+  static constexpr bool has_histogram = Signal::has_histogram;                    ///< else a plain sum
   static constexpr int values = has_histogram ? Cells::values(Signal::bins) : 1;  ///< of one cell
-  static constexpr int size = Grid::cells * values;
-  static constexpr int weight_cells = 0;
+  static constexpr int size = Grid::cells * values;                               ///< of all cells
+  static constexpr int weight_cells = 0;    ///< sums of votes that are kept besides
   static constexpr bool has_signs = false;  ///< values may be below 0
 
   /// Position of one value within the part.
@@ -92,6 +94,7 @@ struct CellMeans {
   static_assert(sizeof...(SignedSignals) >= 1 && ((SignedSignals::is_signed) && ...),
                 "CellMeans<Grid, Cells, Finish, Shrink, Signals...> supports one or more signals with is_signed");
   static_assert(ShrinkPercent >= 1, "CellMeans supports shrinkage of 1 percent or more: a cell may be empty");
+  /// As those of a Part.
   using Grid = GridType;
   using Scale = LinearRadius;
   using Cells = CellConvention;
@@ -101,11 +104,11 @@ struct CellMeans {
   using Signals = typename detail::Distinct<detail::SignalList<>, SignedSignals...>::type;
   using Sources = typename detail::DistinctKinds<extend::SourceKinds<>, typename SignedSignals::Sources...>::type;
   static constexpr int values = static_cast<int>(sizeof...(SignedSignals));  ///< of one cell
-  static constexpr int size = Grid::cells * values;
-  static constexpr int weight_cells = Grid::cells;  ///< sums of votes that are kept besides
-  static constexpr int shrink_percent = ShrinkPercent;
-  static constexpr bool has_signs = (SignedSignals::has_signs || ...);
-  static constexpr int bits = Counts::bits;
+  static constexpr int size = Grid::cells * values;                          ///< of all cells
+  static constexpr int weight_cells = Grid::cells;                           ///< sums of votes that are kept besides
+  static constexpr int shrink_percent = ShrinkPercent;                       ///< see above
+  static constexpr bool has_signs = (SignedSignals::has_signs || ...);       ///< values may be below 0
+  static constexpr int bits = Counts::bits;                                  ///< of positions behind the point
 
   /// Position of the mean of signal `k` of one cell within the part.
   [[nodiscard, gnu::always_inline]] static constexpr int index(int r, int e, int a, int k = 0) noexcept {
@@ -172,6 +175,7 @@ struct Descriptor {
       "Descriptor<Voting, Parts...> supports a voting rule with weight_bits, votes<Axes>, split(axis, position, "
       "unit) and combine<Axes>(axes, shares, unit). See 'How to add a voting rule' in "
       "include/shortshot/README.md");
+  /// How a point is shared among cells.
   using Voting = std::conditional_t<detail::IsVotingRule<VotingRule>::value, VotingRule, HardVoting>;
   static_assert(sizeof...(Parts) >= 1, "Descriptor<Voting, Parts...> supports one or more parts");
 
@@ -191,11 +195,11 @@ struct Descriptor {
 
   /// The signals that are measured, each once.
   using Signals = typename detail::DistinctOf<detail::SignalList<>, typename Parts::Signals...>::type;
-  using LabRule = typename detail::LabRuleOf<Signals>::type;
+  using LabRule = typename detail::LabRuleOf<Signals>::type;  ///< by which colors are converted; void: none
   /// Are colors compared with the neighborhood's mean? Then key points need none.
   static constexpr bool compares_with_mean = detail::compare_with_mean(Signals{});
 
-  using Cells = typename detail::FirstOf<typename Parts::Cells...>::type;
+  using Cells = typename detail::FirstOf<typename Parts::Cells...>::type;  ///< cell convention of all parts
   static_assert((std::is_same<typename Parts::Cells, Cells>::value && ...),
                 "Descriptor supports one cell convention for all its parts");
 
@@ -271,11 +275,11 @@ template <class Grid, int ShapeBins, int ColorBins, class Voting = ShotVoting, c
 using Cshot = Descriptor<Voting, Part<Grid, NormalCosine<ShapeBins>, RadiusScale, ShotCells>,
                          Part<Grid, ColorDistance<ColorBins, LabRule>, RadiusScale, ShotCells>>;
 
-using Ssh32 = Ssh<SphericalGrid<2, 2, 8>>;
-using Ssh96 = Ssh<SphericalGrid<3, 4, 8>>;
-using Scsh336 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;
-using Scsh696 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 6>, 25>;
-using IntensityShape336 = IntensityShape<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;
+using Ssh32 = Ssh<SphericalGrid<2, 2, 8>>;                                 ///< of points, 32 values
+using Ssh96 = Ssh<SphericalGrid<3, 4, 8>>;                                 ///< of points, 96 values
+using Scsh336 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;  ///< with colors, 336 values
+using Scsh696 = Scsh<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 6>, 25>;  ///< with colors, 696 values
+using IntensityShape336 = IntensityShape<SphericalGrid<3, 4, 8>, SphericalGrid<2, 2, 4>, 15>;  ///< with intensities
 
 /// SHOT and CSHOT in PCL's sizes and layout, without its two defects: the last bin of a histogram gets its neighbor's
 /// votes (PclVoting says what PCL does), and white has a color of its own (PclLab).

@@ -20,9 +20,9 @@ inline namespace SHORTSHOT_TYPES {
 /// a float's own rounding is as good as any.
 template <int Multiples, int... Steps>
 struct ShellBorders {
-  static constexpr float per_radius = static_cast<float>(Multiples);
-  static constexpr int grids = static_cast<int>(sizeof...(Steps));
-  static constexpr float steps[] = {static_cast<float>(Steps)..., 0.0f};  // 0: the end
+  static constexpr float per_radius = static_cast<float>(Multiples);      ///< multiples
+  static constexpr int grids = static_cast<int>(sizeof...(Steps));        ///< number of them
+  static constexpr float steps[] = {static_cast<float>(Steps)..., 0.0f};  ///< of each grid, in multiples; 0: the end
 };
 
 }  // namespace SHORTSHOT_TYPES

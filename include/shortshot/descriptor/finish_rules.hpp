@@ -39,8 +39,9 @@ template <int PerMille = 1000>
 struct RootOfShares {
   static_assert(PerMille >= 1 && PerMille <= 100000, "RootOfShares<PerMille> supports weights from 1 / 1000 to 100");
   static constexpr const char* name = "root of shares";
-  static constexpr int per_mille = PerMille;
+  static constexpr int per_mille = PerMille;  ///< the part's weight, times 1000
 
+  /// Finishes the `size` values of a part, in place.
   static void apply(float* values, int size) noexcept {
     detail::roots_of_shares(values, size, static_cast<float>(PerMille) / 1000.0f);
   }
@@ -59,8 +60,8 @@ struct SignedRoots {
                 "SignedRoots<PerMille, Floor, Noise> supports noise from 0 to 1");
   static constexpr const char* name = "signed roots";
   static constexpr int per_mille = PerMille;
-  static constexpr int floor_percent = FloorPercent;
-  static constexpr int noise_per_mille = NoisePerMille;
+  static constexpr int floor_percent = FloorPercent;     ///< times 100
+  static constexpr int noise_per_mille = NoisePerMille;  ///< times 1000
 
   static void apply(float* values, int size) noexcept {
     constexpr float noise = static_cast<float>(NoisePerMille) / 1000.0f;

@@ -21,8 +21,8 @@ inline namespace SHORTSHOT_TYPES {
 /// The fixed-point unit of all votes: `one`, a power of two, is a whole share. A rule may count twice as much for it;
 /// its `weight_bits` say how much that makes of a point: less than 2^weight_bits units, or just as much.
 struct VoteUnit {
-  int bits;
-  std::int32_t one;
+  int bits;          ///< one is 2^bits
+  std::int32_t one;  ///< a whole share
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -38,8 +38,8 @@ struct Share {
 /// The votes of one point: `Count` indices into the part and their weights, in units.
 template <int Count>
 struct Votes {
-  simd::I32 index[static_cast<std::size_t>(Count)];
-  simd::I32 weight[static_cast<std::size_t>(Count)];
+  simd::I32 index[static_cast<std::size_t>(Count)];   ///< of cells, in the part
+  simd::I32 weight[static_cast<std::size_t>(Count)];  ///< what each gets
 };
 
 // Cells are counted in lanes of 32 bits (I32), or of 16 (I16), two registers at a time: `Int`. `Lower` is a mask of
@@ -139,6 +139,7 @@ struct Side {
   return detail::small_code || axis.cells == 1 || axis.end == Beyond::nothing || axis.below_zero == BelowZero::nowhere;
 }
 
+/// Index of the primary cell in the part, from the shares along `Axes` axes.
 template <int Axes>
 [[nodiscard]] SHORTSHOT_INLINE simd::I32 primary_index(const Share (&shares)[4]) noexcept {
   simd::I32 index = shares[0].cell;

@@ -33,9 +33,9 @@ inline namespace SHORTSHOT_TYPES {
 /// whole descriptor. `at` is a NeighborsAt, or where reads_index_only is set an IndicesAt.
 template <int Bins, class... Kinds>
 struct Signal {
-  static constexpr bool has_histogram = true;
-  static constexpr int bins = Bins;
-  using Sources = SourceKinds<Kinds...>;
+  static constexpr bool has_histogram = true;  ///< else a cell holds a plain sum
+  static constexpr int bins = Bins;            ///< of its histogram
+  using Sources = SourceKinds<Kinds...>;       ///< kinds of sources that it reads
   /// Signals that are Measured alike have the same values: they are measured once. Set it to the signal of one bin.
   using Measured = void;
   /// Set where measure() looks at nothing but the index, and every point has a value: fewer registers to go through.
@@ -61,7 +61,7 @@ inline namespace SHORTSHOT_CODE {
 /// What is measured at once.
 template <int Components>
 struct Values {
-  simd::F32 of[static_cast<std::size_t>(Components)];
+  simd::F32 of[static_cast<std::size_t>(Components)];  ///< one register for each
 };
 
 /// Where the neighbors of one register are.
@@ -73,8 +73,9 @@ struct NeighborsAt {
   const FrameAxes& frame;      ///< x, y and z, for along()
 };
 
+/// Which neighbors are in one register, for signals that look at nothing else.
 struct IndicesAt {
-  const std::uint32_t* index;
+  const std::uint32_t* index;  ///< simd::lanes of them, in the cloud
 };
 
 }  // namespace SHORTSHOT_CODE
@@ -86,10 +87,10 @@ inline namespace SHORTSHOT_TYPES {
 /// What a color signal compares neighbors' colors with: the key point's own, or the mean of all within the radius, the
 /// key point included. (One point's color is noise: the mean finds a third more.)
 struct KeyPointColor {
-  static constexpr const char* name = "key point's color";
+  static constexpr const char* name = "key point's color";  ///< for layout_of()
 };
 struct MeanColor {
-  static constexpr const char* name = "mean color";
+  static constexpr const char* name = "mean color";  ///< for layout_of()
 };
 
 /// Signal of SSH: none. Every point counts as one, a cell holds a plain sum.
@@ -104,6 +105,7 @@ struct NormalCosine : extend::Signal<Bins, CloudNormals> {
   static_assert(Bins >= 1 && Bins <= 1023, "NormalCosine<Bins> supports 1 to 1023 histogram bins");
   static constexpr const char* name = "normal cosine";
   using Measured = NormalCosine<1>;
+  /// The places of a register of neighbors in the histogram, 0 to 1; see extend::Signal.
   template <class At, class Normals>
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 measure(const At& at, const Normals& normals) noexcept {
     return extend::along(at.frame.z, normals(at.index)) * extend::simd::all(0.5f) + extend::simd::all(0.5f);
@@ -180,7 +182,9 @@ struct ColorOffset : extend::Signal<Bins, RgbColors<LabRule>> {
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 measure(const At& at, const Colors& colors) noexcept {
     return Measured::measure(at, colors).of[component];
   }
+  /// What the means of a part are of, from what measure() gave.
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 value(extend::simd::F32 offset) noexcept { return offset; }
+  /// The place in the histogram, from what measure() gave.
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::F32 place(extend::simd::F32 offset) noexcept {
     return offset * extend::simd::all(Axis == LabAxis::L ? 1.25f : 1.0f) + extend::simd::all(0.5f);
   }

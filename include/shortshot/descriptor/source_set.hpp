@@ -22,8 +22,8 @@ template <class... Sources>
 struct SourceSet {};
 template <class First, class... Others>
 struct SourceSet<First, Others...> {
-  First first;
-  SourceSet<Others...> others;
+  First first;                  ///< one of them
+  SourceSet<Others...> others;  ///< the rest
 };
 
 }  // namespace SHORTSHOT_CODE

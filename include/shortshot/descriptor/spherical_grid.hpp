@@ -22,16 +22,17 @@ struct SphericalGrid {
                 "SphericalGrid<Radial, Elevation, Azimuth> supports one or more divisions of each kind");
   static_assert(Radial <= 1024 && Elevation <= 1024 && Azimuth <= 1024 && 1LL * Radial * Elevation * Azimuth <= 65536,
                 "SphericalGrid<Radial, Elevation, Azimuth> supports up to 1024 divisions of each kind, 65536 cells");
-  static constexpr int radial = Radial;
-  static constexpr int elevation = Elevation;
-  static constexpr int azimuth = Azimuth;
-  static constexpr int cells = Radial * Elevation * Azimuth;
+  static constexpr int radial = Radial;                       ///< shells
+  static constexpr int elevation = Elevation;                 ///< cells from +z to -z
+  static constexpr int azimuth = Azimuth;                     ///< sectors around z
+  static constexpr int cells = Radial * Elevation * Azimuth;  ///< all of them
 };
 
 /// Shells of equal width: the published default.
 struct LinearRadius {
   static constexpr const char* name = "equal shells";  ///< for layout_of()
-  static constexpr bool is_linear = true;
+  static constexpr bool is_linear = true;              ///< are shells of equal width?
+  /// What a distance below the first border is.
   static constexpr extend::BelowZero below_zero = extend::BelowZero::never;
   /// All borders and middles of shells are multiples of 1 / borders.
   static constexpr int borders(int shells) noexcept { return 2 * shells; }

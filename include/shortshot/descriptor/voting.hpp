@@ -40,13 +40,15 @@ inline namespace SHORTSHOT_TYPES {
 template <bool FlipRadius>
 struct AdditiveVoting {
   static constexpr const char* name = FlipRadius ? "published voting" : "additive voting";  ///< for layout_of()
-  static constexpr bool partners_get_own_share = false;
-  static constexpr bool votes_for_partners = true;
-  static constexpr bool drops_nowhere = false;
-  static constexpr int weight_bits = 2;
+  static constexpr bool partners_get_own_share = false;  ///< of a partner: its own axis' share alone?
+  static constexpr bool votes_for_partners = true;       ///< one vote for the cell, and one for each axis' partner
+  static constexpr bool drops_nowhere = false;  ///< no vote for a partner where the position is nowhere on the axis
+  static constexpr int weight_bits = 2;         ///< a point counts for less than 2^weight_bits units
+  /// Votes of a point, at the most.
   template <int Axes>
   static constexpr int votes = Axes + 1;
 
+  /// Where the partner lies along one axis, and its share.
   [[nodiscard]] SHORTSHOT_INLINE static extend::Side side(const extend::Axis& axis, extend::simd::I32 position,
                                                           const extend::VoteUnit& unit) noexcept {
     extend::simd::I32 fraction = position & extend::simd::all_int((std::int32_t{1} << axis.bits) - 1);
@@ -57,12 +59,14 @@ struct AdditiveVoting {
     return extend::side(axis, fraction, unit, false);
   }
 
+  /// What the primary cell gets, in units.
   template <int Axes, class Sides>
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 weight_of_cell(const Sides (&sides)[4],
                                                                          const extend::VoteUnit& unit) noexcept {
     return extend::simd::all_int(Axes * unit.one) -
            extend::simd::shift_right(extend::twice_all_partners<Axes>(sides), 1);
   }
+  /// What the partner along `axis` gets, in units.
   template <class Sides>
   [[nodiscard]] SHORTSHOT_INLINE static extend::simd::I32 weight_of_partner(int axis, const Sides (&sides)[4],
                                                                             extend::simd::I32 of_cell,
@@ -73,11 +77,13 @@ struct AdditiveVoting {
     return FlipRadius && axis == 3 ? weight + (sides[0].twice_partner - one) : weight;
   }
 
+  /// The cell that a position lies in along one axis, its partner, and the partner's share.
   [[nodiscard]] SHORTSHOT_INLINE static extend::Share split(const extend::Axis& axis, extend::simd::I32 position,
                                                             const extend::VoteUnit& unit) noexcept {
     return extend::share(axis, extend::cell_of(axis, position), side(axis, position, unit));
   }
 
+  /// The votes of one point from its shares along all axes.
   template <int Axes>
   [[nodiscard]] SHORTSHOT_INLINE static extend::Votes<Axes + 1> combine(const extend::Axis (&axes)[4],
                                                                         const extend::Share (&shares)[4],
@@ -155,6 +161,7 @@ struct SeparateVoting {
   }
 };
 
+/// SHOT as its paper has it: the default of Shot and Cshot.
 using ShotVoting = SeparateVoting<false>;
 using PclVoting = SeparateVoting<true>;  ///< equal to PCL to the last quirk: for what is compared with PCL's output
 

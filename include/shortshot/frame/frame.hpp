@@ -23,9 +23,9 @@ inline namespace SHORTSHOT_TYPES {
 
 /// A local reference frame: three orthonormal axes in the cloud's coordinates, right-handed. Trivial type.
 struct Frame {
-  float x[3];
-  float y[3];
-  float z[3];
+  float x[3];  ///< in SHOT: along the surface, where more points are
+  float y[3];  ///< z cross x
+  float z[3];  ///< in SHOT: the normal, where more points are
 };
 
 /// How clear the decisions were that made a frame; confidence() makes one number of them. Zeros: there is no frame, or

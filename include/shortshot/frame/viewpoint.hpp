@@ -18,9 +18,10 @@ inline namespace SHORTSHOT_TYPES {
 /// A point, in the cloud's coordinates, to which or from which normals and the z axes of frames are turned. Absent (the
 /// default): a normal's sign is the solver's, a frame's z is turned by SHOT's vote. Trivially copyable.
 struct Viewpoint {
+  /// What the point is.
   enum class Side : std::uint8_t { absent, towards, away_from };
-  Side side = Side::absent;
-  Point point = {};
+  Side side = Side::absent;  ///< absent: the point means nothing
+  Point point = {};          ///< in the cloud's coordinates
 
   /// To the camera, which sees the surface from outside. In a depth camera's own coordinates it is at {0, 0, 0}.
   [[nodiscard, gnu::always_inline]] static constexpr Viewpoint towards(const Point& camera) noexcept {

@@ -15,6 +15,7 @@ struct Support {
   Radius frame_radius;  ///< of the local reference frame (LRF); may be smaller or larger
   Viewpoint viewpoint;  ///< turns the frames' z
 
+  /// The same radius for descriptor and frame; no viewpoint.
   [[gnu::always_inline]] constexpr Support(Radius r) noexcept  // NOLINT: see above
       : radius(r), frame_radius(r) {}
   [[gnu::always_inline]] constexpr Support(float r) noexcept : Support(Radius(r)) {}  // NOLINT: see above

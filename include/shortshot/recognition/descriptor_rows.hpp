@@ -24,9 +24,9 @@ struct DescriptorRows {
 
 /// Descriptors with the places and frames that they were made at.
 struct FeatureRows {
-  DescriptorRows descriptors;
-  const KeyPoint* keypoints;  ///< one per row
-  const Frame* frames;        ///< one per row
+  DescriptorRows descriptors;  ///< the rows
+  const KeyPoint* keypoints;   ///< one per row
+  const Frame* frames;         ///< one per row
 };
 
 }  // namespace SHORTSHOT_TYPES

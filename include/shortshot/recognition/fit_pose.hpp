@@ -19,14 +19,14 @@ inline namespace SHORTSHOT_TYPES {
 
 /// A rigid motion: target = rotation * source + translation, in meters. Trivial type.
 struct Pose {
-  float rotation[9];  ///< row by row; orthonormal, determinant +1
-  float translation[3];
+  float rotation[9];     ///< row by row; orthonormal, determinant +1
+  float translation[3];  ///< meters
 };
 
 /// Two points that may be the same one of an object, before and after its motion.
 struct PointPair {
-  Point source;
-  Point target;
+  Point source;  ///< before
+  Point target;  ///< after
 };
 
 }  // namespace SHORTSHOT_TYPES

@@ -14,6 +14,7 @@
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
 
+/// How objects are looked for. Trivially copyable.
 struct RecognizerOptions {
   float bandwidth = 0.03f;      ///< h of the density of votes, 1e-6 to 1e6 meters: about how far votes miss the center
   std::uint32_t neighbors = 1;  ///< nearest codewords that each descriptor activates, 1 to 1024
@@ -22,10 +23,10 @@ struct RecognizerOptions {
 
 /// An object that may be there; see Recognizer::class_name() and instance_name() for the numbers. Trivial type.
 struct Hypothesis {
-  std::uint32_t object_class;
-  std::uint32_t instance;
-  Point center;  ///< where that of the training views is in this view
-  float score;   ///< density of the class' votes there: 1 for each that hits it, exp(-d^2 / (2 h^2)) if d meters off
+  std::uint32_t object_class;  ///< number of the class
+  std::uint32_t instance;      ///< number of the instance, among those of all classes
+  Point center;                ///< where that of the training views is in this view
+  float score;  ///< density of the class' votes there: 1 for each that hits it, exp(-d^2 / (2 h^2)) if d meters off
 };
 
 /// A key point as recognizers need it. Trivial type.

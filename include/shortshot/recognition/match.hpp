@@ -28,15 +28,15 @@ inline constexpr std::uint32_t no_row = 0xFFFFFFFFu;
 
 /// A row of the database and its distance from the query.
 struct Match {
-  std::uint32_t row;
-  float distance;
+  std::uint32_t row;  ///< in the database; no_row: none
+  float distance;     ///< from the query, as its format counts; larger: farther
 };
 
 /// A row of each of two sets, and their distance.
 struct MatchedPair {
-  std::uint32_t source;
-  std::uint32_t target;
-  float distance;
+  std::uint32_t source;  ///< row of the first set
+  std::uint32_t target;  ///< row of the second set
+  float distance;        ///< as their format counts
 };
 
 }  // namespace SHORTSHOT_TYPES

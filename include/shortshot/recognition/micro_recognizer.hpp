@@ -67,6 +67,7 @@ class MicroRecognizer {
                 "1 to 1024 codewords for each");
 
  public:
+  /// Most votes that a view can have.
   static constexpr std::size_t max_votes = MaxKeypoints * MaxActivated;
 
   /// All zeros: static ones take no flash and no code.

@@ -45,6 +45,7 @@ struct CodedRows {
   float step;                 ///< CodedDescriptor's
   const Status* status;       ///< one per row: those that are not ok are left out; null: all are ok
 
+  /// Can they be compared: of the same size and step?
   [[nodiscard, gnu::always_inline]] bool fits(const CodedRows& other) const noexcept {
     return detail::fit(*this, other) && step == other.step;
   }
@@ -53,10 +54,12 @@ struct CodedRows {
                                                           std::size_t others_row) const noexcept {
     return detail::squared_code_distance<Bits>(bytes + row * size, other.bytes + others_row * size, size);
   }
+  /// The L2 distance, from what compare() gave.
   [[nodiscard, gnu::always_inline]] float distance(std::uint32_t compared) const noexcept {
     return step * extend::simd::sqrt(static_cast<float>(compared));
   }
 };
+/// Rows of 8 bits a value, and of 4.
 using ByteRows = CodedRows<8>;
 using NibbleRows = CodedRows<4>;
 
@@ -68,11 +71,14 @@ struct BitRows {
   std::size_t size;           ///< bytes in a row
   const Status* status;       ///< one per row: those that are not ok are left out; null: all are ok
 
+  /// Can they be compared: of the same size?
   [[nodiscard, gnu::always_inline]] bool fits(const BitRows& other) const noexcept { return detail::fit(*this, other); }
+  /// The number of bits that differ.
   [[nodiscard, gnu::always_inline]] std::uint32_t compare(std::size_t row, const BitRows& other,
                                                           std::size_t others_row) const noexcept {
     return static_cast<std::uint32_t>(hamming_distance(bytes + row * size, other.bytes + others_row * size, size));
   }
+  /// The same as a float.
   [[nodiscard, gnu::always_inline]] float distance(std::uint32_t compared) const noexcept {
     return static_cast<float>(compared);
   }

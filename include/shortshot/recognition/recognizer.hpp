@@ -30,8 +30,8 @@ inline namespace SHORTSHOT_TYPES {
 /// The share that each class, and each instance, has in the codewords that were activated: 0 to 1, all of them 1
 /// together, or all zero if none was.
 struct ActivationShares {
-  std::vector<float> classes;
-  std::vector<float> instances;
+  std::vector<float> classes;    ///< one per class, by number
+  std::vector<float> instances;  ///< one per instance, by number
 };
 
 /// Recognizes objects by their descriptors. Every descriptor of the training views is a codeword. One of a new view
@@ -52,6 +52,7 @@ struct ActivationShares {
 class Recognizer {
  public:
   Recognizer() = default;
+  /// Not trained yet. Wrong options are bad_option when it is asked.
   explicit Recognizer(const RecognizerOptions& options) noexcept : options_(options) {}
 
   /// One that was moved from has its options still, and was never trained.
@@ -64,9 +65,12 @@ class Recognizer {
   }
   ~Recognizer() = default;
 
+  /// What it was made with, or set_options() gave.
   [[nodiscard]] const RecognizerOptions& options() const noexcept { return options_; }
+  /// For calls to come; the training stays as it is.
   void set_options(const RecognizerOptions& options) noexcept { options_ = options; }
 
+  /// Classes, instances and codewords of all training so far.
   [[nodiscard]] std::size_t class_count() const noexcept { return codebook_.classes.size(); }
   [[nodiscard]] std::size_t instance_count() const noexcept { return codebook_.instances.size(); }
   [[nodiscard]] std::size_t codeword_count() const noexcept { return codebook_.codewords.size(); }

@@ -19,13 +19,18 @@ inline namespace SHORTSHOT_CODE {
 /// A search (search.hpp) without an index.
 class BruteSearch {
  public:
+  /// Borrows the cloud's memory; a view that cannot be read is its status().
   explicit BruteSearch(const CloudView& cloud) noexcept
       : points_(cloud.points), size_(cloud.size), status_(validate(cloud)) {}
 
+  /// ok, or why the cloud cannot be read.
   [[nodiscard]] Status status() const noexcept { return status_; }
 
+  /// Points of the cloud, valid or not.
   [[nodiscard]] std::size_t cloud_size() const noexcept { return size_; }
 
+  /// The points of the cloud within `radius` of `center`, into an empty neighborhood `out`: ok, too_many_neighbors, or
+  /// status(). O(points); allocates nothing; reentrant.
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     extend::clear(out, center);

@@ -40,11 +40,14 @@ class GridIndex {
 
   /// What the last build() returned; empty_cloud before the first one (in memory that started as zeros).
   [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  /// Points of the cloud, valid or not.
   [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
   /// Number of points in the index: the cloud's valid ones.
   [[nodiscard]] std::size_t size() const noexcept { return grid_.size(); }
 
+  /// The points of the cloud within `radius` of `center`, into an empty neighborhood `out`: ok, too_many_neighbors, or
+  /// status(). Allocates nothing; reentrant.
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     return grid_.gather({memory_.order, memory_.cell_end, memory_.xyz}, center, radius, out);
@@ -67,6 +70,7 @@ class StaticGrid {
   static_assert(MaxPoints >= 1 && MaxCells >= 1, "StaticGrid<MaxPoints, MaxCells> supports one or more of both");
 
  public:
+  /// Type of its indices.
   using Index = std::conditional_t<(MaxPoints <= 65535), std::uint16_t, std::uint32_t>;
 
   /// See GridIndex::build(), but for outliers.
@@ -75,6 +79,7 @@ class StaticGrid {
   }
 
   [[nodiscard]] Status status() const noexcept { return grid_.status(); }
+  /// Points of the cloud, valid or not.
   [[nodiscard]] std::size_t cloud_size() const noexcept { return grid_.cloud_size(); }
 
   template <class Neighbors>

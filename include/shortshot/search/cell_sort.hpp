@@ -28,11 +28,11 @@ inline namespace SHORTSHOT_TYPES {
 /// view.
 template <class Index>
 struct GridMemory {
-  Index* order;
-  Index* cell_end;
-  float* xyz;
-  std::size_t point_capacity;
-  std::size_t cell_capacity;
+  Index* order;                ///< the points' indices, cell by cell
+  Index* cell_end;             ///< where each cell's points end
+  float* xyz;                  ///< null: none
+  std::size_t point_capacity;  ///< of order
+  std::size_t cell_capacity;   ///< of cell_end
 };
 
 }  // namespace SHORTSHOT_TYPES

@@ -104,13 +104,17 @@ class NanoflannSearch {
   NanoflannSearch(const NanoflannSearch&) = delete;  // the tree refers to points_
   NanoflannSearch& operator=(const NanoflannSearch&) = delete;
 
+  /// ok, empty_cloud (no valid point), or why the cloud cannot be read.
   [[nodiscard]] Status status() const noexcept {
     const Status usable = validate(points_.cloud);
     return usable == Status::ok && points_.valid.empty() ? Status::empty_cloud : usable;
   }
 
+  /// Points of the cloud, valid or not.
   [[nodiscard]] std::size_t cloud_size() const noexcept { return points_.cloud.size; }
 
+  /// The points of the cloud within `radius` of `center`, into an empty neighborhood `out`: ok, too_many_neighbors, or
+  /// status(). Allocates nothing; reentrant.
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     extend::clear(out, center);

@@ -22,27 +22,27 @@ inline constexpr std::uint32_t max_neighbors = 1u << 24;
 
 /// The neighbors of one key point: a structure of arrays in memory that somebody else owns. Trivial type.
 struct Neighborhood {
-  float* dx;  ///< neighbor - key point in meters; `capacity` elements, as in all arrays here
-  float* dy;
-  float* dz;
-  float* d2;             ///< squared distance, summed as (dx*dx + dy*dy) + dz*dz in float
-  std::uint32_t* index;  ///< the neighbor's index in the cloud; no two are the same
-  std::uint32_t capacity;
-  std::uint32_t size;   ///< neighbors stored, the key point itself and its copies included
-  std::uint32_t found;  ///< neighbors found; more than `capacity` if they did not fit
-  Point center;         ///< the key point: what gather() was asked for
+  float* dx;               ///< neighbor - key point in meters; `capacity` elements, as in all arrays here
+  float* dy;               ///< the same along y
+  float* dz;               ///< the same along z
+  float* d2;               ///< squared distance, summed as (dx*dx + dy*dy) + dz*dz in float
+  std::uint32_t* index;    ///< the neighbor's index in the cloud; no two are the same
+  std::uint32_t capacity;  ///< how many fit
+  std::uint32_t size;      ///< neighbors stored, the key point itself and its copies included
+  std::uint32_t found;     ///< neighbors found; more than `capacity` if they did not fit
+  Point center;            ///< the key point: what gather() was asked for
 };
 
 /// The same in a tenth (or, with 32-bit indices, a fifth) of the memory: indices only. Offsets are worked out from the
 /// cloud whenever they are asked for, with the same bits. Trivial type.
 template <class Index>
 struct CompactNeighborhood {
-  Float3Channel points;  ///< of the cloud
-  Point center;          ///< the key point
-  Index* index;          ///< the neighbor's index in the cloud, `capacity` elements; no two are the same
-  std::uint32_t capacity;
-  std::uint32_t size;   ///< neighbors stored, the key point itself and its copies included
-  std::uint32_t found;  ///< neighbors found; more than `capacity` if they did not fit
+  Float3Channel points;    ///< of the cloud
+  Point center;            ///< the key point
+  Index* index;            ///< the neighbor's index in the cloud, `capacity` elements; no two are the same
+  std::uint32_t capacity;  ///< how many fit
+  std::uint32_t size;      ///< neighbors stored, the key point itself and its copies included
+  std::uint32_t found;     ///< neighbors found; more than `capacity` if they did not fit
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -54,10 +54,11 @@ inline namespace SHORTSHOT_CODE {
 /// One neighbor: from the key point to it, in meters; how far that is, squared, summed as (dx*dx + dy*dy) + dz*dz; and
 /// its index in the cloud.
 struct Neighbor {
-  float dx, dy, dz, d2;
-  std::uint32_t index;
+  float dx, dy, dz, d2;  ///< offset and squared distance
+  std::uint32_t index;   ///< in the cloud
 };
 
+/// A neighbor of `center` at `p`.
 [[nodiscard]] inline Neighbor neighbor_from(const Point& center, const Point& p, std::uint32_t index) noexcept {
   const float dx = p.x - center.x;
   const float dy = p.y - center.y;
@@ -77,8 +78,8 @@ template <class Index>
 /// One register of neighbors. (Of five members, because compilers for ARM move structs of up to four floats to
 /// registers and back wherever a function returns them.)
 struct NeighborLanes {
-  simd::F32 dx, dy, dz, d2;
-  simd::I32 index;
+  simd::F32 dx, dy, dz, d2;  ///< offsets and squared distances
+  simd::I32 index;           ///< in the cloud
 };
 
 /// The register from neighbor `i` on. What is left over at the end comes with copies of the key point (all zeros),

@@ -49,8 +49,11 @@ class OrganizedSearch {
   /// What the last build() returned; empty_cloud before the first one (in memory that started as zeros).
   [[nodiscard]] Status status() const noexcept { return cloud_.size == 0 ? Status::empty_cloud : status_; }
 
+  /// Points of the cloud, valid or not.
   [[nodiscard]] std::size_t cloud_size() const noexcept { return cloud_.size; }
 
+  /// The points of the cloud within `radius` of `center`, into an empty neighborhood `out`: ok, too_many_neighbors, or
+  /// status(). Allocates nothing; reentrant.
   template <class Neighbors>
   [[nodiscard]] Status gather(const Point& center, Radius radius, Neighbors& out) const noexcept {
     extend::clear(out, center);

@@ -15,11 +15,13 @@ inline namespace SHORTSHOT_TYPES {
 /// Converts from float, squared in float. from_double() squares in double and rounds once, as PCL does: the same
 /// neighbors to the last point on the rim. (Meant for constants and hosts: no double is left in firmware code.)
 struct Radius {
-  float value;
-  float squared;
+  float value;    ///< meters
+  float squared;  ///< what squared distances are compared with
 
+  /// Squared in float.
   [[gnu::always_inline]] constexpr Radius(float radius) noexcept
       : value(radius), squared(radius * radius) {}  // NOLINT: 0.04f is a radius
+  /// Squared in double, rounded once.
   [[nodiscard, gnu::always_inline]] static constexpr Radius from_double(double radius) noexcept {
     Radius r(static_cast<float>(radius));
     r.squared = static_cast<float>(radius * radius);

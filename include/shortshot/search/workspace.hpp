@@ -19,11 +19,11 @@ template <std::size_t MaxNeighbors>
 struct Workspace {
   static_assert(MaxNeighbors >= 5 && MaxNeighbors <= max_neighbors,
                 "Workspace<MaxNeighbors> supports 5 (a local reference frame needs as many) to 2^24 neighbors");
-  float dx[MaxNeighbors];
-  float dy[MaxNeighbors];
-  float dz[MaxNeighbors];
-  float d2[MaxNeighbors];
-  std::uint32_t index[MaxNeighbors];
+  float dx[MaxNeighbors];             ///< see Neighborhood, as all of these
+  float dy[MaxNeighbors];             ///< along y
+  float dz[MaxNeighbors];             ///< along z
+  float d2[MaxNeighbors];             ///< squared distances
+  std::uint32_t index[MaxNeighbors];  ///< in the cloud
 };
 
 /// A Workspace of 2 bytes a neighbor (`Index` std::uint32_t: 4) for targets that have more time than memory. Clouds of
@@ -34,7 +34,7 @@ struct CompactWorkspace {
                 "CompactWorkspace<MaxNeighbors> supports 5 (a local reference frame needs as many) to 2^24 neighbors");
   static_assert(std::is_same<Index, std::uint16_t>::value || std::is_same<Index, std::uint32_t>::value,
                 "CompactWorkspace<MaxNeighbors, Index> supports uint16_t and uint32_t");
-  Index index[MaxNeighbors];
+  Index index[MaxNeighbors];  ///< see CompactNeighborhood
 };
 
 }  // namespace SHORTSHOT_TYPES

@@ -23,9 +23,9 @@ inline namespace SHORTSHOT_TYPES {
 template <class D, int Group = 4>
 struct BinaryDescriptor {
   static_assert(Group >= 2 && Group <= 8, "BinaryDescriptor<D, Group> supports groups of 2 to 8 values");
-  static constexpr int bits = D::size;
-  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(bits) + 7) / 8;
-  std::uint8_t bytes[size_bytes];
+  static constexpr int bits = D::size;                                                 ///< one per value
+  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(bits) + 7) / 8;  ///< of all bits
+  std::uint8_t bytes[size_bytes];  ///< bit j is bit j % 8 of byte j / 8
 };
 
 }  // namespace SHORTSHOT_TYPES

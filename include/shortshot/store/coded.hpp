@@ -27,12 +27,12 @@ struct CodedDescriptor {
   static_assert(Scale >= 1 && Scale <= 65536, "CodedDescriptor<D, Bits, Scale> supports scales from 1 to 65536");
   static_assert(D::size >= 1 && D::size <= 66051, "CodedDescriptor<D, Bits> supports 1 to 66051 values");
   static_assert(std::uint64_t{66051} * 255 * 255 <= 0xFFFFFFFFu, "squared_distance() cannot overflow");
-  static constexpr int size = D::size;
-  static constexpr int bits = Bits;
-  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(D::size) * Bits + 7) / 8;
+  static constexpr int size = D::size;                                                           ///< number of values
+  static constexpr int bits = Bits;                                                              ///< of each value
+  static constexpr std::size_t size_bytes = (static_cast<std::size_t>(D::size) * Bits + 7) / 8;  ///< of all values
   /// The L2 distance of two descriptors is step * sqrt(squared_distance(a, b)).
   static constexpr float step = 1.0f / static_cast<float>(Scale);
-  std::uint8_t bytes[size_bytes];
+  std::uint8_t bytes[size_bytes];  ///< the codes
 };
 
 /// One byte a value, a quarter of its floats: 336 bytes for SCSH-336, with steps of 1/512 from 0 to 255/512.

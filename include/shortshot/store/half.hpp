@@ -17,9 +17,9 @@ inline namespace SHORTSHOT_TYPES {
 template <class D>
 struct HalfDescriptor {
   static_assert(D::size >= 1 && D::size <= 66051, "HalfDescriptor<D> supports 1 to 66051 values");
-  static constexpr int size = D::size;
-  static constexpr std::size_t size_bytes = 2 * static_cast<std::size_t>(D::size);
-  std::uint16_t values[D::size];
+  static constexpr int size = D::size;                                              ///< number of values
+  static constexpr std::size_t size_bytes = 2 * static_cast<std::size_t>(D::size);  ///< of all values
+  std::uint16_t values[D::size];                                                    ///< as binary16, one per value
 };
 
 }  // namespace SHORTSHOT_TYPES

@@ -3,7 +3,7 @@
 // A file is never written to where it lies: a disk that is full, or a program that ends, would leave half of the new
 // file and nothing of the old one. What is new is written beside it, and then takes its name, which is one step.
 //
-// By the C library: <fstream> takes more time to compile than all that would be used of it.
+// By the C library: `<fstream>` takes more time to compile than all that would be used of it.
 #pragma once
 
 #include <cerrno>

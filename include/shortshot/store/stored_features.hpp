@@ -25,13 +25,14 @@ inline namespace SHORTSHOT_TYPES {
 /// SumBits of a D. One row per key point, in the order of the features that they were made of.
 template <class Stored>
 struct StoredFeatures {
-  std::vector<Stored> descriptors;  ///< of zeros where the status is not ok
-  std::vector<Status> status;       ///< the others as Features have them
-  std::vector<KeyPoint> keypoints;
-  std::vector<Frame> frames;
-  std::vector<FrameConfidence> frame_confidence;
-  std::vector<std::uint32_t> neighbors;
+  std::vector<Stored> descriptors;                ///< of zeros where the status is not ok
+  std::vector<Status> status;                     ///< the others as Features have them
+  std::vector<KeyPoint> keypoints;                ///< what was described
+  std::vector<Frame> frames;                      ///< of each
+  std::vector<FrameConfidence> frame_confidence;  ///< how sure each of them is
+  std::vector<std::uint32_t> neighbors;           ///< found within the larger radius
 
+  /// Number of rows.
   [[nodiscard, gnu::always_inline]] std::size_t size() const noexcept { return status.size(); }
 };
 

@@ -22,9 +22,9 @@ template <class D, int Bits = 352, int Draws = 4>
 struct SumBits {
   static_assert(Bits >= 8 && Bits <= 65536 && Bits % 8 == 0, "SumBits<D, Bits> supports whole bytes: 8 to 65536 bits");
   static_assert(Draws >= 2 && Draws <= 64, "SumBits<D, Bits, Draws> supports 2 to 64 draws for a bit");
-  static constexpr int bits = Bits;
-  static constexpr std::size_t size_bytes = static_cast<std::size_t>(Bits) / 8;
-  std::uint8_t bytes[size_bytes];
+  static constexpr int bits = Bits;                                              ///< number of them
+  static constexpr std::size_t size_bytes = static_cast<std::size_t>(Bits) / 8;  ///< of all bits
+  std::uint8_t bytes[size_bytes];                                                ///< bit j is bit j % 8 of byte j / 8
 };
 
 }  // namespace SHORTSHOT_TYPES
