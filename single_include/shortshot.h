@@ -17,7 +17,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(_WIN32)
 #define SHORTSHOT_API __attribute__((visibility("default")))
 #else
 #define SHORTSHOT_API
@@ -120,7 +120,7 @@ typedef struct shortshot_cloud {
 SHORTSHOT_API shortshot_status shortshot_view_xyz_rgb(const float* xyz, const uint8_t* rgb, size_t count,
                                                       shortshot_cloud* cloud, size_t size_bytes);
 
-/* C++'s CloudOptions. A null pointer to options means the defaults, which are those of this comment. */
+/* C++'s CloudOptions, but for the leaf. A null pointer to options means the defaults, which stand here. */
 enum { SHORTSHOT_NO_VIEWPOINT = 0, SHORTSHOT_TOWARDS = 1, SHORTSHOT_AWAY_FROM = 2 };
 typedef struct shortshot_options {
   uint32_t size_bytes;     /* sizeof(shortshot_options) */

@@ -106,8 +106,8 @@ static void check_rows(int line, size_t count, size_t row_bytes, shortshot_statu
 }
 
 static shortshot_features check_describe(shortshot_cloud cloud, size_t count) {
-  const shortshot_features all = {sizeof all, SHORTSHOT_SSH32, SHORTSHOT_FLOATS, 0,     count,
-                                  keypoints,  rows,            row_status,       frames};
+  const shortshot_features all = {sizeof all, SHORTSHOT_SSH32, SHORTSHOT_FLOATS, 0, count, keypoints, rows,
+                                  row_status, frames};
   shortshot_features f = all;
   shortshot_options options;
   static float normals[points][3];
