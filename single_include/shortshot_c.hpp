@@ -13,10 +13,8 @@ namespace {
 
 namespace ss = shortshot;
 using ss::Status;
-using Codebook = ss::detail::Codebook;
 
-// ---- What both languages say of memory
-// -------------------------------------------------------------------------------
+// ---- What both languages say of memory ------------------------------------------------------------------------------
 
 static_assert(ss::status_count == SHORTSHOT_COARSE_COORDINATES + 1 && sizeof(Status) == 1, "shortshot_status");
 static_assert(int(ss::Viewpoint::Side::towards) == SHORTSHOT_TOWARDS, "viewpoint_side");
@@ -101,8 +99,7 @@ shortshot_keypoint keypoint_of(const ss::KeyPoint& from) noexcept {
   return {at.x, at.y, at.z, from.intensity, from.color.r, from.color.g, from.color.b, static_cast<std::uint8_t>(has)};
 }
 
-// ---- The table of descriptors
-// ----------------------------------------------------------------------------------------
+// ---- The table of descriptors ---------------------------------------------------------------------------------------
 
 constexpr float no_values[1344] = {};  // as many as the largest has
 
@@ -203,8 +200,7 @@ const Storage* find(shortshot_descriptor number, shortshot_storage storage) noex
   return entry == nullptr || storage > SHORTSHOT_SUM_BITS ? nullptr : entry->storages + storage;
 }
 
-// ---- Rows of the caller's
-// --------------------------------------------------------------------------------------------
+// ---- Rows of the caller's -------------------------------------------------------------------------------------------
 
 /// Features as C++ reads them; `status` says whether they can be.
 struct View {

@@ -46,6 +46,25 @@ bool same(const std::vector<A>& a, const B* b, std::size_t count) {
   return a.size() == count && count > 0 && std::memcmp(a.data(), b, count * sizeof(A)) == 0;
 }
 
+/// Are the numbers of C those of C++?
+// clang-format off
+#define SAME(cpp, c) (int(ss::Status::cpp) == SHORTSHOT_##c)
+constexpr bool same_numbers =
+    SAME(ok, OK) && SAME(empty_cloud, EMPTY_CLOUD) && SAME(bad_view, BAD_VIEW) && SAME(bad_radius, BAD_RADIUS) &&
+    SAME(bad_keypoint, BAD_KEYPOINT) && SAME(invalid_keypoint, INVALID_KEYPOINT) &&
+    SAME(missing_colors, MISSING_COLORS) && SAME(missing_normals, MISSING_NORMALS) &&
+    SAME(too_few_neighbors, TOO_FEW_NEIGHBORS) && SAME(too_many_neighbors, TOO_MANY_NEIGHBORS) &&
+    SAME(ambiguous_frame, AMBIGUOUS_FRAME) && SAME(bad_frame, BAD_FRAME) && SAME(bad_viewpoint, BAD_VIEWPOINT) &&
+    SAME(bad_leaf, BAD_LEAF) && SAME(out_of_memory, OUT_OF_MEMORY) && SAME(not_organized, NOT_ORGANIZED) &&
+    SAME(bad_rows, BAD_ROWS) && SAME(bad_option, BAD_OPTION) && SAME(too_few_pairs, TOO_FEW_PAIRS) &&
+    SAME(no_pose, NO_POSE) && SAME(not_trained, NOT_TRAINED) && SAME(not_a_model, NOT_A_MODEL) &&
+    SAME(other_version, OTHER_VERSION) && SAME(other_descriptor, OTHER_DESCRIPTOR) &&
+    SAME(damaged_model, DAMAGED_MODEL) && SAME(no_file, NO_FILE) && SAME(missing_intensities, MISSING_INTENSITIES) &&
+    SAME(unsure_frame, UNSURE_FRAME) && SAME(other_cloud, OTHER_CLOUD) &&
+    SAME(coarse_coordinates, COARSE_COORDINATES);
+// clang-format on
+static_assert(same_numbers, "shortshot_status");
+
 struct Cloud {
   std::vector<float> xyz;
   std::vector<std::uint8_t> rgb;
@@ -214,10 +233,35 @@ void compare_stored(shortshot_storage storage, const Both<D>& a, const Both<D>& 
   compare(stored_a, stored_b, ss::rows_of(stored_a), ss::rows_of(stored_b), storage, a, b, path);
 }
 
+/// Is the descriptor of a number, which has its name, D?
+template <class D>
+void check_entry(shortshot_descriptor number, const std::string& name) {
+  const int needs = (D::needs_colors ? SHORTSHOT_NEEDS_COLORS : 0) + (D::needs_normals ? SHORTSHOT_NEEDS_NORMALS : 0) +
+                    (D::needs_intensities ? SHORTSHOT_NEEDS_INTENSITIES : 0);
+  expect(shortshot_row_bytes(number, SHORTSHOT_FLOATS) == D::size_bytes &&
+             shortshot_needs(number) == static_cast<std::uint32_t>(needs) && shortshot_descriptor_name(number) == name,
+         name);
+}
+
 }  // namespace
 
 int main(int, char** arguments) {
   const std::string path = arguments[1];
+#define CHECK_ENTRY(number, name) check_entry<ss::name>(SHORTSHOT_##number, #name)
+  CHECK_ENTRY(SSH32, Ssh32);
+  CHECK_ENTRY(SSH96, Ssh96);
+  CHECK_ENTRY(SCSH336, Scsh336);
+  CHECK_ENTRY(SCSH696, Scsh696);
+  CHECK_ENTRY(SHOT352, Shot352);
+  CHECK_ENTRY(CSHOT1344, Cshot1344);
+  CHECK_ENTRY(PCL_SHOT352, PclShot352);
+  CHECK_ENTRY(PCL_CSHOT1344, PclCshot1344);
+  CHECK_ENTRY(INTENSITY_SHAPE336, IntensityShape336);
+  CHECK_ENTRY(SHAPE_COLOR95, ShapeColor95);
+  CHECK_ENTRY(SHAPE_COLOR32, ShapeColor32);
+  CHECK_ENTRY(ROOM_COLOR95, RoomColor95);
+  CHECK_ENTRY(HEIGHT_SHAPE96, HeightShape96);
+  CHECK_ENTRY(COLOR_RINGS27, ColorRings27);
   Cloud bent(20.0f), flatter(15.0f);
   flatter.out_of_memory = true;
   const Both<ss::Shot352> shot(bent, SHORTSHOT_SHOT352);
