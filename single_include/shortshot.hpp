@@ -1000,6 +1000,7 @@ struct Mask {
 /// are.)
 struct SignMask {
   std::int32_t v;
+  /// The same as a mask of another kind.
   operator Mask() const noexcept { return {v != 0}; }  // NOLINT: it is one
 };
 struct I16 {
@@ -1768,6 +1769,7 @@ inline namespace SHORTSHOT_CODE {
   return p;
 }
 
+/// Element `index` of a channel of points, or of normals.
 [[nodiscard]] inline Point read(const Float3Channel& channel, std::size_t index) noexcept {
   return read_in_place(channel, index);
 }
@@ -9715,9 +9717,9 @@ struct Hypothesis {
 /// A key point as recognizers need it. Trivial type.
 template <class Stored>
 struct StoredKeyPoint {
-  Stored descriptor;
-  Point position;
-  Frame frame;
+  Stored descriptor;  ///< as it is stored
+  Point position;     ///< where the key point is in the view
+  Frame frame;        ///< its local reference frame
 };
 
 }  // namespace SHORTSHOT_TYPES
@@ -10236,11 +10238,15 @@ inline namespace SHORTSHOT_CODE {
 template <std::size_t Size>
 class RamMemory {
  public:
-  static constexpr std::size_t unit_bytes = 1;
+  static constexpr std::size_t unit_bytes = 1;  ///< programmed at a time
 
+  /// Forgets all: before the first open(), too.
   void erase() noexcept { std::memset(bytes_, detail::erased_byte, Size); }
+  /// All of it.
   [[nodiscard]] const std::uint8_t* bytes() const noexcept { return bytes_; }
+  /// How much that is.
   [[nodiscard]] std::size_t size_bytes() const noexcept { return Size; }
+  /// Writes a unit; true.
   bool write(std::size_t place, const std::uint8_t* unit) noexcept {
     bytes_[place] = *unit;
     return true;

@@ -43,13 +43,13 @@ header_code | grep -E ':.*(\bprintf|<iostream>|<cstdio>|\babort\(|\bthrow\b|\bne
 header_code | grep -E '# *define +' | grep -vE '# *define +SHORTSHOT_' |
   grep -v '/kernel_for_avx2\.hpp:.*define shortshot shortshot_avx2 ' |  # while it reads the kernel once more
   refuse "macro without the prefix SHORTSHOT_"
-project_files run .ci/run '*.sh' '*.hpp' '*.cpp' '*.cmake' '*CMakeLists.txt' ':!single_include/shortshot.hpp' |
+project_files run .ci/run '*.sh' '*.hpp' '*.cpp' '*.h' '*.c' '*.cmake' '*CMakeLists.txt' ':!single_include/shortshot.hpp' |
   xargs wc -l | awk '$2 != "total" && $1 > 300' | refuse "file of more than 300 lines"
 
 say "+ shellcheck, for every shell script"
 project_files run .ci/run '*.sh' | xargs shellcheck
-say "+ clang-format-14 --dry-run -Werror, for every C++ file"
-project_files '*.hpp' '*.cpp' ':!single_include' | xargs clang-format-14 --dry-run -Werror
+say "+ clang-format-14 --dry-run -Werror, for every C++ and C file"
+project_files '*.hpp' '*.cpp' 'single_include/*.h' 'tests/*.c' ':!single_include/shortshot.hpp' | xargs clang-format-14 --dry-run -Werror
 say "+ clang-tidy-14, for the library and for the kernel alone"
 printf '%s\n' whole_library kernel_object |
   xargs -I '{}' -P 2 clang-tidy-14 --quiet 'tests/build/{}.cpp' -- -std=c++17 -Iinclude -isystem /usr/include/eigen3

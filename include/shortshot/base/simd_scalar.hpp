@@ -41,6 +41,7 @@ struct Mask {
 /// are.)
 struct SignMask {
   std::int32_t v;
+  /// The same as a mask of another kind.
   operator Mask() const noexcept { return {v != 0}; }  // NOLINT: it is one
 };
 struct I16 {

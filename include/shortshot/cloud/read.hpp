@@ -25,6 +25,7 @@ inline namespace SHORTSHOT_CODE {
   return p;
 }
 
+/// Element `index` of a channel of points, or of normals.
 [[nodiscard]] inline Point read(const Float3Channel& channel, std::size_t index) noexcept {
   return read_in_place(channel, index);
 }

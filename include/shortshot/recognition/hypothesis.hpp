@@ -32,9 +32,9 @@ struct Hypothesis {
 /// A key point as recognizers need it. Trivial type.
 template <class Stored>
 struct StoredKeyPoint {
-  Stored descriptor;
-  Point position;
-  Frame frame;
+  Stored descriptor;  ///< as it is stored
+  Point position;     ///< where the key point is in the view
+  Frame frame;        ///< its local reference frame
 };
 
 }  // namespace SHORTSHOT_TYPES

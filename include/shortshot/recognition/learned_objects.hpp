@@ -31,11 +31,15 @@ inline namespace SHORTSHOT_CODE {
 template <std::size_t Size>
 class RamMemory {
  public:
-  static constexpr std::size_t unit_bytes = 1;
+  static constexpr std::size_t unit_bytes = 1;  ///< programmed at a time
 
+  /// Forgets all: before the first open(), too.
   void erase() noexcept { std::memset(bytes_, detail::erased_byte, Size); }
+  /// All of it.
   [[nodiscard]] const std::uint8_t* bytes() const noexcept { return bytes_; }
+  /// How much that is.
   [[nodiscard]] std::size_t size_bytes() const noexcept { return Size; }
+  /// Writes a unit; true.
   bool write(std::size_t place, const std::uint8_t* unit) noexcept {
     bytes_[place] = *unit;
     return true;
