@@ -7584,10 +7584,11 @@ template <class Kind, class Key, class First, class... Own>
                                     const Own&... own) noexcept {
   if constexpr (StandsFor<Kind, First>::value) {
     return first;
-  } else if constexpr (std::is_pointer<First>::value && channel_of<Kind> == Channel::colors) {
-    using Color = std::remove_const_t<std::remove_pointer_t<First>>;
+  } else if constexpr (std::is_pointer<std::decay_t<First>>::value && channel_of<Kind> == Channel::colors) {
+    using Color = std::remove_const_t<std::remove_pointer_t<std::decay_t<First>>>;
     const Lab reference = reference_at<typename Kind::Rule>(key);
-    return StoredColors<Color>{key.has_color ? first : nullptr, reference};
+    const Color* const colors = first;
+    return StoredColors<Color>{key.has_color ? colors : nullptr, reference};
   } else {
     return source_at<Kind>(cloud, key, own...);
   }
@@ -9553,13 +9554,15 @@ template <class D, int Scale, int Bits, int Draws>
 void binarize(const NibbleDescriptor<D, Scale>& nibbles, SumBits<D, Bits, Draws>& out) noexcept {
   constexpr auto& draws = detail::draws<D::size, static_cast<std::size_t>(Bits) * Draws>;
   const auto* draw = draws.of;
+  std::int8_t steps[D::size];  // each is drawn several times
+  for (int i = 0; i < D::size; ++i) steps[i] = static_cast<std::int8_t>(detail::steps_at(nibbles, i));
   for (std::uint8_t& byte : out.bytes) {
     unsigned bits = 0;
     for (int bit = 0; bit < 8; ++bit) {
       int sum = 0;
       for (int k = 0; k < Draws; ++k) {
-        const int steps = detail::steps_at(nibbles, *draw++);
-        sum += k % 2 == 0 ? -steps : steps;
+        const std::int8_t drawn = steps[*draw++];
+        sum += k % 2 == 0 ? -drawn : drawn;
       }
       if (sum > 0) bits |= 1u << bit;
     }
@@ -10098,11 +10101,11 @@ class ModelView {
     const detail::LearnedModel* learned;
   };
 
-  explicit ModelView(const detail::FlashModel& model) noexcept
-      : model_(model),
-        codewords_(model.codeword_count()),
-        instances_(model.instance_count()),
-        classes_(model.class_count()) {}
+  explicit ModelView(const detail::FlashModel& trained) noexcept
+      : model_(trained),
+        codewords_(trained.codeword_count()),
+        instances_(trained.instance_count()),
+        classes_(trained.class_count()) {}
 
   [[nodiscard]] static bool is_of_storage(const detail::FlashModel& model) noexcept {
     return model.storage() == detail::storage_number<Stored> && model.row_bytes() == sizeof(Stored) &&

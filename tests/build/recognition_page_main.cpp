@@ -88,7 +88,9 @@ int main() {
     if (status != shortshot::Status::ok) return 1;
   }
   std::vector<std::uint8_t> model;
-  if (shortshot::save_for_flash<Nibbles>(recognizer, model) != shortshot::Status::ok) return 2;
+  if (shortshot::save_for_flash<shortshot::NibbleDescriptor<shortshot::ShapeColor95>>(recognizer, model) !=
+      shortshot::Status::ok)
+    return 2;
   const auto answer = [&](const View& view) {
     return std::string(
         what_is_it(model.data(), static_cast<unsigned>(model.size()), view.xyz.data(), view.rgb.data(), side * side));

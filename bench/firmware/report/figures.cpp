@@ -146,7 +146,7 @@ class Builder {
     const auto has = [&](const char* name) { return f.count(name) != 0; };
     if (has("work_describe_and_match") && has("work_match")) {
       f["work_describe"] = f["work_describe_and_match"] - f["work_match"];
-      f["work_view"] = f["work_index"] + f["work_describe_and_match"] + f["work_find"];
+      f["work_view"] = f["work_index"] + f["work_colors"] + f["work_describe_and_match"] + f["work_find"];
     }
     if (has("work_points") && has("work_describe") && has("work_match") && has("work_find")) {
       f["work_view"] = f["work_points"] + f["work_describe"] + f["work_match"] + f["work_find"];

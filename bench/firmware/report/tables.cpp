@@ -37,11 +37,12 @@ bool is_recognition(const std::string& configuration) {
   return configuration == "Recognition" || configuration == "Segments" || configuration == "SegmentsLeftOut";
 }
 constexpr Column recognition_columns[] = {
-    {"objects", "objects", nullptr},      {"codewords", "codewords", nullptr},  {"model", "model_bytes", nullptr},
-    {"RAM", "recognizer_bytes", nullptr}, {"code", "recognizer_code", nullptr}, {"stack", "stack_painted", nullptr},
-    {"open", "work_open", nullptr},       {"index", "work_index", nullptr},     {"describe", "work_describe", nullptr},
-    {"match", "work_match", nullptr},     {"find", "work_find", nullptr},       {"view", "work_view", nullptr},
-    {"views", "views", nullptr},          {"right", "right", nullptr},          {"classes", "right_classes", nullptr}};
+    {"objects", "objects", nullptr},        {"codewords", "codewords", nullptr},  {"model", "model_bytes", nullptr},
+    {"RAM", "recognizer_bytes", nullptr},   {"code", "recognizer_code", nullptr}, {"stack", "stack_painted", nullptr},
+    {"open", "work_open", nullptr},         {"index", "work_index", nullptr},     {"colors", "work_colors", nullptr},
+    {"describe", "work_describe", nullptr}, {"match", "work_match", nullptr},     {"find", "work_find", nullptr},
+    {"view", "work_view", nullptr},         {"views", "views", nullptr},          {"right", "right", nullptr},
+    {"classes", "right_classes", nullptr}};
 
 /// Of each small depth sensor: a program, too.
 constexpr const char* small_sensor = "SmallSensor";

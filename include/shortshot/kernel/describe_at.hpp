@@ -90,10 +90,11 @@ template <class Kind, class Key, class First, class... Own>
                                     const Own&... own) noexcept {
   if constexpr (StandsFor<Kind, First>::value) {
     return first;
-  } else if constexpr (std::is_pointer<First>::value && channel_of<Kind> == Channel::colors) {
-    using Color = std::remove_const_t<std::remove_pointer_t<First>>;
+  } else if constexpr (std::is_pointer<std::decay_t<First>>::value && channel_of<Kind> == Channel::colors) {
+    using Color = std::remove_const_t<std::remove_pointer_t<std::decay_t<First>>>;
     const Lab reference = reference_at<typename Kind::Rule>(key);
-    return StoredColors<Color>{key.has_color ? first : nullptr, reference};
+    const Color* const colors = first;
+    return StoredColors<Color>{key.has_color ? colors : nullptr, reference};
   } else {
     return source_at<Kind>(cloud, key, own...);
   }

@@ -138,11 +138,11 @@ class ModelView {
     const detail::LearnedModel* learned;
   };
 
-  explicit ModelView(const detail::FlashModel& model) noexcept
-      : model_(model),
-        codewords_(model.codeword_count()),
-        instances_(model.instance_count()),
-        classes_(model.class_count()) {}
+  explicit ModelView(const detail::FlashModel& trained) noexcept
+      : model_(trained),
+        codewords_(trained.codeword_count()),
+        instances_(trained.instance_count()),
+        classes_(trained.class_count()) {}
 
   [[nodiscard]] static bool is_of_storage(const detail::FlashModel& model) noexcept {
     return model.storage() == detail::storage_number<Stored> && model.row_bytes() == sizeof(Stored) &&

@@ -36,13 +36,15 @@ template <class D, int Scale, int Bits, int Draws>
 void binarize(const NibbleDescriptor<D, Scale>& nibbles, SumBits<D, Bits, Draws>& out) noexcept {
   constexpr auto& draws = detail::draws<D::size, static_cast<std::size_t>(Bits) * Draws>;
   const auto* draw = draws.of;
+  std::int8_t steps[D::size];  // each is drawn several times
+  for (int i = 0; i < D::size; ++i) steps[i] = static_cast<std::int8_t>(detail::steps_at(nibbles, i));
   for (std::uint8_t& byte : out.bytes) {
     unsigned bits = 0;
     for (int bit = 0; bit < 8; ++bit) {
       int sum = 0;
       for (int k = 0; k < Draws; ++k) {
-        const int steps = detail::steps_at(nibbles, *draw++);
-        sum += k % 2 == 0 ? -steps : steps;
+        const std::int8_t drawn = steps[*draw++];
+        sum += k % 2 == 0 ? -drawn : drawn;
       }
       if (sum > 0) bits |= 1u << bit;
     }

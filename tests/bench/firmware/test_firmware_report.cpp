@@ -71,20 +71,21 @@ TEST_CASE("a further configuration costs what it adds to the image of the first 
 
 TEST_CASE("recognition: a view is its index, descriptions, comparisons and places; the host has facts alone") {
   auto images = measured_images();
-  images.push_back(facts("recognition",
-                         "target m7\nlevel O2\nprogram recognition\nconfiguration Recognition\nworkspace full\n"
-                         "section index\nsection describe_and_match\nsection find\nsection match\nhash Recognition 01\n"
-                         "fact views 30\nfact right 28\nexit 0\ncount 10\ncount 500\ncount 7\ncount 200\n"));
+  images.push_back(facts(
+      "recognition",
+      "target m7\nlevel O2\nprogram recognition\nconfiguration Recognition\nworkspace full\n"
+      "section index\nsection colors\nsection describe_and_match\nsection find\nsection match\nhash Recognition 01\n"
+      "fact views 30\nfact right 28\nexit 0\ncount 10\ncount 3\ncount 500\ncount 7\ncount 200\n"));
   images.push_back(facts("host",
                          "target host\nlevel O2\nprogram recognition_on_host\nconfiguration Recognition\n"
                          "workspace full\nfact views 30\nfact right 27\nexit 0\n"));
   const Measured measured = measure(images);
   REQUIRE(measured.rows.size() == 3);
   const auto& board = measured.rows[1].figures;
-  CHECK((board.at("work_describe") == 300.0 && board.at("work_view") == 517.0 && board.at("wrong_views") == 2.0));
+  CHECK((board.at("work_describe") == 300.0 && board.at("work_view") == 520.0 && board.at("wrong_views") == 2.0));
   CHECK((measured.rows[2].figures.at("right") == 27.0 && measured.rows[2].figures.count("wrong_views") == 0));
   CHECK(measured.hashes.back().value == "01");
-  CHECK(tables(measured).find("517") != std::string::npos);
+  CHECK(tables(measured).find("520") != std::string::npos);
   const Budget band{"named rightly", "wrong_views", 1.0, 1.0, {}, {}, {"Recognition"}, {}};
   CHECK(names(broken_budgets({band}, measured.rows), "Recognition on m7"));
   CHECK(broken_images(images, {}).empty());

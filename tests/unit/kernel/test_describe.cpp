@@ -90,6 +90,21 @@ TEST_CASE("describe: Lab converted beforehand gives the same bits as bytes conve
   CHECK(same_bits(before, meanwhile));
 }
 
+TEST_CASE("describe: an array of colors is what a pointer to them is") {
+  const TestCloud cloud = curved_surface(3, 1500);
+  static ss::PackedLab packed[1500];
+  REQUIRE(ss::convert_colors<ss::PublishedLab>(cloud.view(), packed) == Status::ok);
+  static ss::Workspace<1500> workspace;
+  const ss::PackedLab* const pointer = packed;
+  std::vector<float> by_array = garbage<D>(), by_pointer = garbage<D>(), by_bytes = garbage<D>();
+  const ss::BruteSearch search{cloud.view()};
+  REQUIRE(ss::describe_at<D>(cloud.view(), search, 5, 0.05f, workspace, by_array.data(), packed) == Status::ok);
+  REQUIRE(ss::describe_at<D>(cloud.view(), search, 5, 0.05f, workspace, by_pointer.data(), pointer) == Status::ok);
+  REQUIRE(ss::describe_at<D>(cloud.view(), search, 5, 0.05f, workspace, by_bytes.data()) == Status::ok);
+  CHECK(same_bits(by_array, by_pointer));
+  CHECK_FALSE(same_bits(by_array, by_bytes));  // packed ones are rounded
+}
+
 TEST_CASE("describe: any number of neighbors in the middle of one cell adds up without overflow") {
   // The largest sum there is: four shares of 1 from every neighbor, all into one value.
   using OneCell = ss::Descriptor<ss::PublishedVoting, ss::Part<ss::SphericalGrid<1, 1, 1>, ss::ColorDistance<1>>,
