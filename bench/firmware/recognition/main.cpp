@@ -53,6 +53,17 @@ class HostFacts {
   std::string text_;
 };
 
+/// A model of three key points of two objects, and no views: each of its bytes will be damaged.
+void make_small(const std::string& directory, RecognitionTask task) {
+  task.training.resize(5);
+  task.training.erase(task.training.begin() + 1, task.training.begin() + 4);
+  task.training_keypoints = 3;
+  std::vector<std::uint8_t> bytes;
+  require(shortshot::save_for_flash<recognition::Stored>(train_stored(task), bytes));
+  write(directory + "/small/model.bin", bytes_of(bytes));
+  write(directory + "/small/views.bin", "");
+}
+
 /// The model, the views, and what this machine says of them.
 void make(const std::string& directory, const std::string& name, const RecognitionTask& task) {
   const shortshot::Recognizer recognizer = train_stored(task);
@@ -144,7 +155,9 @@ int main(int argc, char** argv) {
   }
   try {
     if (options.segments.empty()) {
-      make(options.directory, "Recognition", generated_task());
+      const RecognitionTask task = generated_task();
+      make(options.directory, "Recognition", task);
+      make_small(options.directory, task);
     } else {
       const std::vector<Segment> all = read_segments(options.segments);
       make(options.directory, "Segments", segments_task(all));
