@@ -29,6 +29,14 @@ void draw_mark(Canvas& canvas, const Place& at, float unit) {
   canvas.disc(at, 4.4f * unit, light_green);
 }
 
+void draw_target(Canvas& canvas, const Place& at, float unit) {
+  const float arm = 12.0f * unit;
+  canvas.disc(at, 16.0f * unit, rim);
+  canvas.disc(at, 13.0f * unit, white);
+  canvas.line({at.x - arm, at.y}, {at.x + arm, at.y}, 4.0f * unit, rim);
+  canvas.line({at.x, at.y - arm}, {at.x, at.y + arm}, 4.0f * unit, rim);
+}
+
 void draw_strong_line(Canvas& canvas, const Place& from, const Place& to, float unit) {
   canvas.line(from, to, 4.6f * unit, rim);
   canvas.line(from, to, 2.6f * unit, light_green);
@@ -44,10 +52,13 @@ Canvas draw_marked(const NamedCloud& cloud, const MarkedCloud& marked, std::size
   Panel panel(canvas, box, best_viewing(cloud.cloud), cloud.cloud);
   panel.draw(cloud.cloud, Paint::own);
   draw_dots(canvas, panel, marked.dots, unit);
-  for (std::size_t i = 0; i < marked.marks.size() && i < marked.targets.size(); ++i) {
-    draw_strong_line(canvas, panel.place_of(marked.marks[i]), panel.place_of(marked.targets[i]), 0.6f * unit);
+  for (std::size_t i = 0; i < marked.marks.size(); ++i) {
+    const Place at = panel.place_of(marked.marks[i]);
+    if (!panel.is_inside(at)) continue;
+    if (i < marked.targets.size()) draw_strong_line(canvas, at, panel.place_of(marked.targets[i]), 0.6f * unit);
+    draw_mark(canvas, at, unit);
   }
-  for (const shortshot::Point& p : marked.marks) draw_mark(canvas, panel.place_of(p), unit);
+  if (!marked.targets.empty()) draw_target(canvas, panel.place_of(marked.targets.front()), unit);
   panel.draw_scale(text);
   canvas.outline(box, unit, dark_gray);
   canvas.text_that_fits({box.left, 0.6f * text}, 1.25f * text, marked.title, black);

@@ -36,6 +36,8 @@ void draw_dots(Canvas& canvas, const Panel& panel, const std::vector<shortshot::
 
 /// Light green with a dark rim, to be told from what is below in grays, too.
 void draw_mark(Canvas& canvas, const Place& at, float unit);
+/// A white disc with a cross.
+void draw_target(Canvas& canvas, const Place& at, float unit);
 void draw_strong_line(Canvas& canvas, const Place& from, const Place& to, float unit);
 
 struct MarkedCloud {
@@ -43,7 +45,7 @@ struct MarkedCloud {
   std::string legend;
   std::vector<shortshot::Point> dots;
   std::vector<shortshot::Point> marks;
-  std::vector<shortshot::Point> targets;  // none, or one for each mark: joined to it by a line
+  std::vector<shortshot::Point> targets;  // none, or one for each mark, joined to it by a line; the first one is marked
 };
 
 /// One cloud as its camera saw it.
