@@ -164,7 +164,7 @@ void draw(const RgbdCloud& cloud, const std::string& file, const DemoOptions& op
       marked.dots.push_back({cloud.xyz[3 * i], cloud.xyz[3 * i + 1], cloud.xyz[3 * i + 2]});
     }
     marked.title = std::to_string(result.keypoints.size()) + " key points, each described within " +
-                   text("%g", static_cast<double>(options.radius));
+                   text("%g m", static_cast<double>(options.radius));
     marked.legend = marked.dots.size() > 800 ? "dots: some of the key points" : "dots: key points";
     draw_marked({folder_name(file), cloud}, marked, width).write_png(options.picture);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace shortshot_bench {
 namespace {
@@ -24,18 +25,6 @@ double agreement_of(const std::vector<PointPair>& pairs, const shortshot::Pose& 
   return reached / static_cast<double>(pairs.size()) / static_cast<double>(targets.size());
 }
 
-/// How many of the sources, in this order, are no nearer than `apart` to one that was counted before; adds them.
-std::size_t count_places(const std::vector<PointPair>& pairs, const std::vector<std::uint32_t>& order, float apart,
-                         std::vector<Point>& places) {
-  const std::size_t before = places.size();
-  for (const std::uint32_t i : order) {
-    const Point& p = pairs[i].source;
-    const auto is_near = [&](const Point& q) { return shortshot::squared_distance(p, q) < apart * apart; };
-    if (std::none_of(places.begin(), places.end(), is_near)) places.push_back(p);
-  }
-  return places.size() - before;
-}
-
 }  // namespace
 
 double log10_binomial_tail(std::size_t trials, std::size_t least, double probability) {
@@ -55,22 +44,52 @@ double log10_binomial_tail(std::size_t trials, std::size_t least, double probabi
   return std::min(0.0, (largest + std::log(sum)) / std::log(10.0));
 }
 
-Chance chance_of(const std::vector<PointPair>& pairs, const std::vector<std::uint32_t>& inliers,
-                 const shortshot::Pose& pose, const std::vector<Point>& targets, float reach, float apart,
-                 std::size_t tried) {
+Places places_of(const std::vector<Point>& points, const std::vector<float>& distances, float apart) {
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return distances[a] < distances[b]; });
+  Places places;
+  places.of.resize(points.size());
+  for (const std::uint32_t i : order) {
+    const auto is_near = [&](std::uint32_t k) {
+      return shortshot::squared_distance(points[i], points[k]) < apart * apart;
+    };
+    const auto found = std::find_if(places.nearest.begin(), places.nearest.end(), is_near);
+    places.of[i] = static_cast<std::uint32_t>(found - places.nearest.begin());
+    if (found == places.nearest.end()) places.nearest.push_back(i);
+  }
+  return places;
+}
+
+Agreement agreement_at(const Places& places, const std::vector<std::uint32_t>& agreeing, double probability,
+                       std::size_t free) {
+  Agreement out;
+  out.places = places.nearest.size();
+  std::vector<bool> has_any(out.places, false);
+  for (const std::uint32_t i : agreeing) {
+    has_any[places.of[i]] = true;
+    out.nearest += places.nearest[places.of[i]] == i ? 1u : 0u;
+  }
+  out.any = static_cast<std::size_t>(std::count(has_any.begin(), has_any.end(), true));
+  if (out.places <= free) return out;
+  const double each = static_cast<double>(places.of.size()) / static_cast<double>(out.places);
+  const double of_any = 1.0 - std::pow(1.0 - std::min(1.0, probability), each);
+  const auto tail = [&](std::size_t count, double p) {
+    return log10_binomial_tail(out.places - free, count > free ? count - free : 0, p);
+  };
+  out.log10_probability =
+      std::min(0.0, std::log10(2.0) + std::min(tail(out.nearest, probability), tail(out.any, of_any)));
+  return out;
+}
+
+Chance chance_of(const std::vector<PointPair>& pairs, const std::vector<std::uint32_t>& inliers, const Places& places,
+                 const shortshot::Pose& pose, const std::vector<Point>& targets, float reach, std::size_t tried) {
   Chance chance;
-  chance.log10_expected = std::log10(static_cast<double>(std::max<std::size_t>(1, tried)));  // three pairs always agree
-  if (inliers.size() < 3 || targets.empty()) return chance;
-  std::vector<std::uint32_t> all(pairs.size());
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<std::uint32_t>(i);
-  std::vector<Point> places;
-  chance.agreement = agreement_of(pairs, pose, targets, reach);
-  chance.agreeing = count_places(pairs, inliers, apart, places);
-  chance.places = chance.agreeing + count_places(pairs, all, apart, places);
-  const double at_each = static_cast<double>(pairs.size()) / static_cast<double>(chance.places);
-  chance.at_place = 1.0 - std::pow(1.0 - std::min(1.0, chance.agreement), at_each);
-  if (chance.agreeing <= 3) return chance;
-  chance.log10_expected += log10_binomial_tail(chance.places - 3, chance.agreeing - 3, chance.at_place);
+  if (!targets.empty() && !pairs.empty()) chance.agreement = agreement_of(pairs, pose, targets, reach);
+  chance.at = agreement_at(places, inliers, chance.agreement, 3);
+  chance.log10_expected =
+      std::log10(static_cast<double>(std::max<std::size_t>(1, tried))) + chance.at.log10_probability;
   return chance;
 }
 

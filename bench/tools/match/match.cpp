@@ -96,8 +96,14 @@ void find_pose(const RgbdCloud& a, const RgbdCloud& b, const MatchOptions& optio
   if (status == Status::too_few_pairs || status == Status::no_pose) return;
   require(status);
   measure_extent(out);
-  out.chance =
-      chance_of(pairs, out.inliers, out.pose, out.a, out.reach, out.radius, poses_tried(pairs.size(), options.tries));
+  std::vector<Point> sources;
+  std::vector<float> distances;
+  for (const shortshot::MatchedPair& row : out.rows) {
+    sources.push_back(out.b[row.source]);
+    distances.push_back(row.distance);
+  }
+  out.chance = chance_of(pairs, out.inliers, places_of(sources, distances, out.radius), out.pose, out.a, out.reach,
+                         poses_tried(pairs.size(), options.tries));
   out.is_found = out.chance.log10_expected < std::log10(options.expected);
   if (!out.is_found) return;
   out.fit = refine(view_of_cloud(b), view_of_cloud(a), refine_options_of(out), out.pose);

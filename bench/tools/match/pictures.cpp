@@ -98,7 +98,7 @@ std::string verdict_of(const MatchResult& result) {
   char text[200];
   std::snprintf(text, sizeof text, "%s: %zu of %zu pairs agree, at %zu of %zu places (by chance: 1e%+.0f such poses)",
                 result.is_found ? "found" : "NOT FOUND", result.inliers.size(), result.rows.size(),
-                result.chance.agreeing, result.chance.places, result.chance.log10_expected);
+                result.chance.at.any, result.chance.at.places, result.chance.log10_expected);
   return text;
 }
 

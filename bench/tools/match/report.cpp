@@ -14,10 +14,12 @@ void print_pose(const MatchResult& result) {
   std::printf("  inliers             %zu within %.2g m, %.2g x %.2g x %.2g m large (standard deviations)\n",
               result.inliers.size(), number(result.reach), number(result.extent[0]), number(result.extent[1]),
               number(result.extent[2]));
-  std::printf("  by chance           1e%+.1f poses as good: at %zu of %zu places that are %.2g m apart; a wrong pair\n",
-              result.chance.log10_expected, result.chance.agreeing, result.chance.places, number(result.radius));
-  std::printf("  %-19s agrees with a probability of %.2g, one of those of a place of %.2g\n", "",
-              result.chance.agreement, result.chance.at_place);
+  std::printf(
+      "  by chance           1e%+.1f poses as good: a wrong pair agrees with a probability of %.2g; of %zu places "
+      "that\n",
+      result.chance.log10_expected, result.chance.agreement, result.chance.at.places);
+  std::printf("  %-19s are %.2g m apart the pair that is most alike agrees at %zu, and any one at %zu\n", "",
+              number(result.radius), result.chance.at.nearest, result.chance.at.any);
 }
 
 }  // namespace
@@ -54,7 +56,7 @@ void print_report(const MatchResult& result, double milliseconds) {
 std::string quiet_line(const MatchResult& result) {
   std::array<char, 160> text{};
   std::snprintf(text.data(), text.size(), "%d %zu %zu %zu %zu %.2f %.3f", result.is_found ? 1 : 0,
-                result.inliers.size(), result.rows.size(), result.chance.agreeing, result.chance.places,
+                result.inliers.size(), result.rows.size(), result.chance.at.any, result.chance.at.places,
                 result.chance.log10_expected, number(result.fit.share));
   std::string line = text.data();
   const shortshot::Pose pose = result.is_found ? result.pose : shortshot::Pose{};

@@ -49,8 +49,9 @@ void Canvas::set_sample(int x, int y, const Color& color) {
 template <class SpanAt, class Covers>
 void Canvas::paint(const Box& bounds, const Color& color, float opacity, const SpanAt& span_at, const Covers& covers) {
   constexpr auto fine = static_cast<float>(samples);
-  const auto clamped = [&](float v, std::size_t most) {
-    return static_cast<std::size_t>(std::min(std::max(std::floor(fine * v), 0.0f), fine * static_cast<float>(most)));
+  const auto clamped = [&](float v, std::size_t most) -> std::size_t {
+    if (!(v > 0.0f)) return 0;  // nor NaN
+    return static_cast<std::size_t>(std::min(std::floor(fine * v), fine * static_cast<float>(most)));
   };
   const std::size_t bottom = clamped(bounds.top + bounds.height + 1.0f, height_);
   for (std::size_t y = clamped(bounds.top, height_); y < bottom; ++y) {

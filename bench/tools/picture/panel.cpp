@@ -83,6 +83,7 @@ Panel::Panel(Canvas& canvas, const Box& box, const Viewing& viewing, const RgbdC
 
 Place Panel::place_of(const Point& p) const {
   const Projected at = viewing_.project(p);
+  if (viewing_.is_perspective && !(at.depth > 0.0f)) return {-1.0f, -1.0f};  // outside of every box
   return {box_.left + 0.5f * box_.width + scale_ * (at.u - middle_u_),
           box_.top + 0.5f * box_.height + scale_ * (at.v - middle_v_)};
 }
@@ -124,7 +125,7 @@ void Panel::draw(const RgbdCloud& cloud, Paint paint) {
   const float width = quantile(points, &Projected::u, 0.98f) - quantile(points, &Projected::u, 0.02f);
   const float height = quantile(points, &Projected::v, 0.98f) - quantile(points, &Projected::v, 0.02f);
   const float spacing = scale_ * std::sqrt(width * height / static_cast<float>(seen));
-  const int radius = std::min(30, static_cast<int>(std::lround(0.65f * spacing * Canvas::samples)));
+  const int radius = static_cast<int>(std::lround(std::min(30.0f, 0.65f * spacing * Canvas::samples)));
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::isnan(points[i].depth)) continue;
     const Color own = cloud.has_colors() ? Color{cloud.rgb[3 * i], cloud.rgb[3 * i + 1], cloud.rgb[3 * i + 2]} : black;

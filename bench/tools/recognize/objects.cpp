@@ -46,8 +46,6 @@ class Votes {
     }
   }
 
-  std::size_t rows() const { return rows_.size(); }
-
   std::vector<std::uint32_t> voters_for(const shortshot::Hypothesis& h) const {
     std::vector<std::uint32_t> voters;
     const std::size_t each = recognizer_.options().neighbors;
@@ -75,15 +73,24 @@ class Votes {
     return 1.0 - std::pow(1.0 - each, static_cast<double>(recognizer_.options().neighbors));
   }
 
-  /// Of rows no nearer to each other than this.
-  std::size_t places(float apart) const {
-    std::vector<Point> places;
+  Places places(float apart) const {
+    std::vector<Point> points;
+    std::vector<float> distances;
     for (const std::uint32_t row : rows_) {
-      const Point p = features_.keypoints[row].position;
-      const auto is_near = [&](const Point& q) { return shortshot::squared_distance(p, q) < apart * apart; };
-      if (std::none_of(places.begin(), places.end(), is_near)) places.push_back(p);
+      points.push_back(features_.keypoints[row].position);
+      distances.push_back(matches_[row * recognizer_.options().neighbors].distance);
     }
-    return places.size();
+    return places_of(points, distances, apart);
+  }
+
+  /// Numbers among the rows that vote.
+  std::vector<std::uint32_t> numbers_of(const std::vector<std::uint32_t>& voters) const {
+    std::vector<std::uint32_t> numbers;
+    for (const std::uint32_t row : voters) {
+      const auto at = std::lower_bound(rows_.begin(), rows_.end(), row);
+      numbers.push_back(static_cast<std::uint32_t>(at - rows_.begin()));
+    }
+    return numbers;
   }
 
  private:
@@ -141,19 +148,14 @@ std::vector<Recognized> recognize_objects(const shortshot::Recognizer& recognize
   std::vector<shortshot::Hypothesis> hypotheses;
   require(recognize(recognizer, features, hypotheses, threads));
   const Votes votes(recognizer, features, threads);
-  const auto places = static_cast<double>(votes.places(radius_of(recognizer)));
+  const Places places = votes.places(radius_of(recognizer));
   std::vector<Recognized> out;
   for (const shortshot::Hypothesis& h : hypotheses) {
-    Recognized r{h, votes.voters_for(h), votes.agreement_by_chance(h), 0.0};
-    const double share =
-        static_cast<double>(r.voters.size()) / static_cast<double>(std::max<std::size_t>(1, votes.rows()));
-    // A peak may be anywhere where a vote is; the place that it was climbed from counts for nothing.
-    r.log10_expected = std::log10(std::max(1.0, places));
-    if (places > 1.0) {
-      r.log10_expected +=
-          log10_binomial_tail(static_cast<std::size_t>(places) - 1,
-                              static_cast<std::size_t>(std::max(0.0, share * places - 1.0)), r.agreement);
-    }
+    Recognized r{h, votes.voters_for(h), {}, 0.0};
+    r.at = agreement_at(places, votes.numbers_of(r.voters), votes.agreement_by_chance(h), 1);
+    // Any vote may be where a hypothesis is; its place counts for nothing then.
+    r.log10_expected =
+        std::log10(static_cast<double>(std::max<std::size_t>(1, features.size()))) + r.at.log10_probability;
     out.push_back(r);
   }
   return out;

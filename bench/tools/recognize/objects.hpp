@@ -8,6 +8,7 @@
 
 #include "shortshot/shortshot.hpp"
 #include "tools/io/rgbd_cloud.hpp"
+#include "tools/match/chance.hpp"
 
 namespace shortshot_bench {
 
@@ -31,14 +32,13 @@ void learn(shortshot::Recognizer& recognizer, const RgbdCloud& cloud, const std:
 struct Recognized {
   shortshot::Hypothesis hypothesis{};
   std::vector<std::uint32_t> voters;
-  double agreement = 0.0;       // the probability that a wrong vote is one of them
+  Agreement at;                 // of the key points that vote
   double log10_expected = 0.0;  // hypotheses with as many, that chance would find
 };
 
 /// What the recognizer says, densest first, with how sure it is. If all votes were wrong, each key point would be
-/// matched with any of the codewords; from its frame and theirs follows how often that is a vote for the hypothesis.
-/// Key points within a radius of each other see the same surface: their votes, which are right or wrong together, count
-/// as one. Throws likewise.
+/// matched with any of the codewords; from its frame and theirs follows how often that is a vote for the hypothesis. Of
+/// key points within a radius of each other one counts: see Places. Throws likewise.
 std::vector<Recognized> recognize_objects(const shortshot::Recognizer& recognizer,
                                           const shortshot::Features<ObjectDescriptor>& features, unsigned threads);
 

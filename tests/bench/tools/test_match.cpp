@@ -17,6 +17,7 @@
 #include "tools/match/options.hpp"
 #include "tools/match/pictures.hpp"
 #include "tools/match/report.hpp"
+#include "tools/match/run.hpp"
 #include "tools/picture/canvas.hpp"
 #include "tools/picture/panel.hpp"
 #include "tools/scene/object_views.hpp"
@@ -55,6 +56,19 @@ std::size_t green_in_the_middle(const Canvas& canvas) {
     count += c.g > 150 && c.r < 150 && c.b < 170 ? 1u : 0u;
   }
   return count;
+}
+
+/// As text, with colors.
+std::string write_ply(const std::string& path, const RgbdCloud& cloud) {
+  std::ofstream file(path);
+  file << "ply\nformat ascii 1.0\nelement vertex " << cloud.size()
+       << "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
+          "property uchar blue\nend_header\n";
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) file << cloud.xyz[3 * i + k] << ' ';
+    for (std::size_t k = 0; k < 3; ++k) file << int{cloud.rgb[3 * i + k]} << (k < 2 ? ' ' : '\n');
+  }
+  return path;
 }
 
 /// n choose k p^k (1 - p)^(n - k), added up.
@@ -114,6 +128,46 @@ TEST_CASE("match: what has nothing in common is not found, and no line says so")
   CHECK(green_in_the_middle(draw_matches({"one", a}, {"two", b}, result, 600)) == 0);
 }
 
+TEST_CASE("match: files that it reads and writes, and what is wrong with one, with its name and place") {
+  const std::string folder = std::string(SHORTSHOT_TEST_OUTPUT) + "/";
+  const auto exists = [](const std::string& path) { return std::ifstream(path).good(); };
+  MatchCommand command;
+  command.out = folder + "matched";
+  command.width = 400;
+  command.clouds = {write_ply(folder + "a.ply", make_object_view(0, {}).cloud),
+                    write_ply(folder + "b.ply", make_object_view(9, {}).cloud)};
+  std::remove((command.out + ".png").c_str());
+  command.quiet = true;
+  CHECK_FALSE(run_match(command));
+  CHECK_FALSE(exists(command.out + ".png"));
+  command.quiet = false;
+  std::ofstream(command.out + "-pose.txt") << "of an earlier run";
+  CHECK_FALSE(run_match(command));
+  CHECK(exists(command.out + ".png"));
+  CHECK_FALSE(exists(command.out + "-pose.txt"));
+  command.clouds[1] = command.clouds[0];
+  CHECK(run_match(command));
+  CHECK(exists(command.out + "-moved.png"));
+  double number = 0.0;
+  std::vector<double> pose;
+  for (std::ifstream file(command.out + "-pose.txt"); file >> number;) pose.push_back(number);
+  REQUIRE(pose.size() == 16);
+  for (std::size_t k = 0; k < 16; ++k) CHECK(std::fabs(pose[k] - (k % 5 == 0 ? 1.0 : 0.0)) < 0.02);
+
+  std::ofstream(folder + "broken.ply")
+      << "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+         "property float z\nend_header\n0 0 1\n0 zero 1\n";
+  command.clouds[1] = folder + "broken.ply";
+  CHECK_THROWS_WITH(run_match(command), doctest::Contains("broken.ply:9:"));
+  std::ofstream(folder + "short.ply", std::ios::binary) << "ply\nformat binary_little_endian 1.0\nelement vertex 2\n"
+                                                           "property float x\nproperty float y\nproperty float z\n"
+                                                           "end_header\n1234";
+  command.clouds[1] = folder + "short.ply";
+  CHECK_THROWS_WITH(run_match(command), doctest::Contains("short.ply: byte "));
+  command.clouds[1] = folder + "none.ply";
+  CHECK_THROWS_WITH(run_match(command), doctest::Contains("none.ply"));
+}
+
 TEST_CASE("match: a cloud that cannot be described is refused in the library's words") {
   const RgbdCloud a = make_object_view(0, {}).cloud;
   CHECK_THROWS_WITH(match_clouds(a, RgbdCloud{}, {}), "the cloud has no valid point");
@@ -125,30 +179,44 @@ TEST_CASE("chance: the binomial tail, and what it makes of pairs") {
   CHECK(std::pow(10.0, log10_binomial_tail(40, 1, 0.01)) == doctest::Approx(tail_by_hand(40, 1, 0.01)));
   CHECK(log10_binomial_tail(3, 4, 0.5) < -200.0);
 
-  // 20 pairs far apart, and each led to the right one of 20 targets: 17 of 17 that agree by chance with 1 in 20.
+  // 20 pairs far apart, each led to the right one of 20 targets: 17 of 17 that agree by chance with 1 in 20.
   std::vector<shortshot::PointPair> pairs;
   std::vector<shortshot::Point> targets;
-  std::vector<std::uint32_t> inliers;
+  std::vector<std::uint32_t> all;
+  Places places;
   for (std::uint32_t i = 0; i < 20; ++i) {
     const shortshot::Point p{static_cast<float>(i), static_cast<float>(i * i % 7), 0.0f};
     pairs.push_back({p, p});
     targets.push_back(p);
-    inliers.push_back(i);
+    all.push_back(i);
   }
   const shortshot::Pose still{{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
-  const Chance sure = chance_of(pairs, inliers, still, targets, 0.1f, 0.5f, 1000);
+  places.nearest = places.of = all;
+  const Chance sure = chance_of(pairs, all, places, still, targets, 0.1f, 1000);
   CHECK(sure.agreement == doctest::Approx(0.05));
-  CHECK(sure.places == 20);
-  CHECK(sure.log10_expected == doctest::Approx(3.0 + 17.0 * std::log10(0.05)));
-  // The same pairs, twice each: no more is known, and a wrong one of a place is twice as likely.
-  std::vector<shortshot::PointPair> twice = pairs;
-  twice.insert(twice.end(), pairs.begin(), pairs.end());
-  for (std::uint32_t i = 20; i < 40; ++i) inliers.push_back(i);
-  const Chance same = chance_of(twice, inliers, still, targets, 0.1f, 0.5f, 1000);
-  CHECK(same.places == 20);
-  CHECK(same.log10_expected > sure.log10_expected);
+  CHECK(sure.at.any == 20);
+  CHECK(sure.log10_expected == doctest::Approx(3.0 + std::log10(2.0) + 17.0 * std::log10(0.05)));
   // Three pairs always agree.
-  CHECK(chance_of(pairs, {0, 1, 2}, still, targets, 0.1f, 0.5f, 1000).log10_expected == doctest::Approx(3.0));
+  CHECK(chance_of(pairs, {0, 1, 2}, places, still, targets, 0.1f, 1000).log10_expected == doctest::Approx(3.0));
+}
+
+TEST_CASE("chance: points that are near to each other are one place, and two ways to agree count twice") {
+  const std::vector<shortshot::Point> points{{0, 0, 0}, {0.5f, 0, 0}, {1.2f, 0, 0}, {5, 0, 0}};
+  const Places one = places_of(points, {3, 1, 2, 4}, 1.0f);
+  CHECK(one.nearest == std::vector<std::uint32_t>{1, 3});
+  CHECK(one.of == std::vector<std::uint32_t>{0, 0, 0, 1});
+  CHECK(places_of(points, {1, 3, 2, 4}, 1.0f).nearest == std::vector<std::uint32_t>{0, 2, 3});
+  CHECK(places_of(points, {1, 3, 2, 4}, 0.1f).nearest.size() == 4);
+  CHECK(places_of({}, {}, 1.0f).nearest.empty());
+
+  // At the first place not the nearest one agrees: any of three does with 1 - 0.9^2 (four points at two places).
+  const Agreement at = agreement_at(one, {0, 3}, 0.1, 0);
+  CHECK(at.nearest == 1);
+  CHECK(at.any == 2);
+  CHECK(std::pow(10.0, at.log10_probability) == doctest::Approx(2.0 * 0.19 * 0.19));
+  CHECK(std::pow(10.0, agreement_at(one, {1, 3}, 0.1, 0).log10_probability) == doctest::Approx(2.0 * 0.1 * 0.1));
+  CHECK(agreement_at(one, {1, 3}, 0.1, 2).log10_probability == 0.0);
+  CHECK(agreement_at(one, {}, 0.1, 0).log10_probability == 0.0);
 }
 
 TEST_CASE("refine: a pose that is nearly right becomes right") {

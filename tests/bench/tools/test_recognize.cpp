@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "tools/picture/marks.hpp"
 #include "tools/recognize/objects.hpp"
 #include "tools/recognize/options.hpp"
+#include "tools/recognize/run.hpp"
 #include "tools/scene/object_views.hpp"
 
 namespace test_recognize {
@@ -75,6 +77,19 @@ TEST_CASE("recognize: learned objects by name, others as none of these, and a mo
   shortshot::Recognizer loaded;
   REQUIRE(shortshot::load(path, shortshot::layout_of<ObjectDescriptor>(), loaded) == shortshot::Status::ok);
   CHECK(radius_of(loaded) == radius);
+}
+
+TEST_CASE("recognize: a file that is no model, or no cloud, is named") {
+  const std::string folder = std::string(SHORTSHOT_TEST_OUTPUT) + "/";
+  std::ofstream(folder + "no.model") << "nonsense";
+  RecognizeCommand command;
+  command.model = folder + "no.model";
+  command.clouds = {folder + "none.ply"};
+  CHECK_THROWS_WITH(run_recognize(command), doctest::Contains("no.model: "));
+  CHECK_THROWS_WITH(run_learn(command), doctest::Contains("no.model: "));
+  command.model = folder + "new.model";
+  CHECK_THROWS_WITH(run_learn(command), doctest::Contains("none.ply"));
+  CHECK_FALSE(std::ifstream(command.model).good());
 }
 
 TEST_CASE("recognize: the picture has its marks, and a cloud without colors is refused") {
