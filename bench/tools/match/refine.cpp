@@ -30,7 +30,7 @@ Eigen::Vector3d vector_of(const Point& p) { return Eigen::Vector3f(p.x, p.y, p.z
 class Surface {
  public:
   Surface(const CloudView& source, const CloudView& target, const RefineOptions& options)
-      : target_(target), options_(options), search_(target, options.plane_radius) {
+      : options_(options), search_(target, options.plane_radius) {
     std::vector<Point> valid;
     for (std::size_t i = 0; i < source.size; ++i) {
       const Point p = shortshot::point(source, i);
@@ -71,7 +71,6 @@ class Surface {
     return std::abs(contact.offset) < static_cast<double>(reach);
   }
 
-  CloudView target_;
   RefineOptions options_;
   shortshot::GridSearch search_;
   std::vector<Point> samples_;

@@ -107,7 +107,7 @@ TEST_CASE("match: another view of a scene is found, with the angle that it was t
   CHECK(line.substr(0, 2) == "1 ");
 
   const NamedCloud of_a{"one", a}, of_b{"two", b};
-  for (const std::size_t width : {400, 1000}) {
+  for (const std::size_t width : {std::size_t{400}, std::size_t{1000}}) {
     const Canvas lines = draw_matches(of_a, of_b, result, width);
     CHECK(lines.width() == width);
     CHECK(lines.height() > width / 3);
