@@ -14472,47 +14472,10 @@ template <class D>
 }  // namespace shortshot
 #endif  // SHORTSHOT_BATCH_KEEP_BEST_FRAMES_HPP
 
-namespace shortshot {
-inline namespace SHORTSHOT_TYPES {
-
-/// How describe_cloud() describes. Defaults for objects on a table, seen by a depth camera at one meter.
-struct CloudOptions {
-  float radius = 0.04f;       ///< of the support, in meters
-  float leaf = 0.02f;         ///< one key point in each occupied voxel of that many meters: its points' centroid
-  float frame_radius = 0.0f;  ///< of the local reference frame, in meters; 0: the support's
-  float best_frames = 1.0f;   ///< above 0, at most 1: share of the key points that is kept, those with surest frames
-  Viewpoint viewpoint;        ///< turns the frames' z; Viewpoint::towards({0, 0, 0}): a camera at the origin
-  unsigned threads = 1;       ///< that share the work
-};
-
-}  // namespace SHORTSHOT_TYPES
-inline namespace SHORTSHOT_CODE {
-
-/// Describes a whole cloud: key points by sample_centroids(), neighbors by a GridSearch, rows by an Extractor. `out`
-/// has the key points, too.
-///
-/// Statuses: empty_cloud, bad_view, bad_leaf, bad_radius, bad_viewpoint, missing_colors, missing_normals (for SHOT and
-/// CSHOT: estimate_normals() first), missing_intensities, coarse_coordinates, bad_option (best_frames); `out` is empty,
-/// or all its rows have that status. Each row has a status of its own. Allocates what those three do, anew in every
-/// call; for cloud after cloud take them one by one.
-template <class D>
-[[nodiscard]] Status describe_cloud(const CloudView& cloud, const CloudOptions& options, Features<D>& out) {
-  detail::clear_rows(out, 0, Status::ok);
-  Support support = options.radius;
-  if (options.frame_radius != 0.0f) support.frame_radius = Radius(options.frame_radius);
-  support.viewpoint = options.viewpoint;
-  std::vector<KeyPoint> keypoints;
-  Status status = validate(support.radius);
-  if (status == Status::ok) status = sample_centroids(cloud, options.leaf, keypoints);
-  if (status != Status::ok) return status;
-  const GridSearch search(cloud, options.radius);
-  status = Extractor<D>().extract(cloud, search, keypoints, support, out, options.threads);
-  return status == Status::ok ? keep_best_frames(out, options.best_frames) : status;
-}
-
-}  // namespace SHORTSHOT_CODE
-}  // namespace shortshot
-#endif  // SHORTSHOT_BATCH_DESCRIBE_CLOUD_HPP
+// shortshot/batch/suggest.hpp: lengths that fit a cloud: the support's radius, the leaf of its key points, the radius
+// of normals. Hosted only: allocates.
+#ifndef SHORTSHOT_BATCH_SUGGEST_HPP
+#define SHORTSHOT_BATCH_SUGGEST_HPP
 
 // shortshot/batch/diagnose.hpp: numbers that cannot work are named: units, radii, searches, normals, colors. Hosted
 // only: allocates.
@@ -14731,6 +14694,244 @@ template <class Search, class Key = std::uint32_t>
 }  // namespace SHORTSHOT_CODE
 }  // namespace shortshot
 #endif  // SHORTSHOT_BATCH_DIAGNOSE_HPP
+
+// shortshot/batch/frame_agreement.hpp: how well local frames repeat, from one cloud alone. Hosted only: allocates.
+#ifndef SHORTSHOT_BATCH_FRAME_AGREEMENT_HPP
+#define SHORTSHOT_BATCH_FRAME_AGREEMENT_HPP
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// The even or the odd points of a cloud: x y z.
+[[nodiscard]] inline std::vector<float> half_of(const CloudView& cloud, std::size_t first) {
+  std::vector<float> xyz;
+  xyz.reserve(3 * (cloud.size / 2 + 1));
+  for (std::size_t i = first; i < cloud.size; i += 2) {
+    const Point p = point(cloud, i);
+    for (const float v : {p.x, p.y, p.z}) xyz.push_back(v);
+  }
+  return xyz;
+}
+
+/// Axes less than 20 degrees apart.
+[[nodiscard]] inline bool agree(const Frame& a, const Frame& b) noexcept {
+  const auto cosine = [](const float(&u)[3], const float(&v)[3]) {
+    return (unfused(u[0] * v[0]) + unfused(u[1] * v[1])) + unfused(u[2] * v[2]);
+  };
+  return cosine(a.x, b.x) > 0.94f && cosine(a.y, b.y) > 0.94f && cosine(a.z, b.z) > 0.94f;
+}
+
+/// Frames from one half of a cloud.
+class HalfCloudFrames {  // stays where it is: the search views its coordinates
+ public:
+  HalfCloudFrames(const CloudView& cloud, std::size_t first, const Support& support)
+      : xyz_(half_of(cloud, first)),
+        search_(view_xyz(xyz_.data(), xyz_.size() / 3), support.radius.value),
+        support_(support) {}
+
+  [[nodiscard]] Status estimate(const Point& at, Frame& frame) {
+    Neighborhood n;
+    const Status status = workspace_.gather(search_, at, support_.frame_radius, n);
+    return status == Status::ok ? estimate_frame(n, support_.frame_radius, frame, support_.viewpoint) : status;
+  }
+
+ private:
+  std::vector<float> xyz_;
+  GridSearch search_;
+  Support support_;
+  GrowingWorkspace workspace_;
+};
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// Share of the key points whose local frames from the even and from the odd points of the cloud have axes less than 20
+/// degrees apart; negative if there are none to compare. Of up to 200 key points, one in a voxel of `leaf` meters.
+/// Allocates both halves and a GridSearch over each.
+[[nodiscard]] inline float frame_agreement(const CloudView& cloud, float radius, float leaf,
+                                           const Viewpoint& viewpoint = {}) {
+  constexpr std::size_t most = 200;
+  std::vector<KeyPoint> keypoints;
+  Support support = radius;
+  support.viewpoint = viewpoint;
+  if (validate(support.radius) != Status::ok || sample_centroids(cloud, leaf, keypoints) != Status::ok) return -1.0f;
+  detail::HalfCloudFrames even(cloud, 0, support);
+  detail::HalfCloudFrames odd(cloud, 1, support);
+  std::size_t both = 0;
+  std::size_t alike = 0;
+  const std::size_t count = std::min(most, keypoints.size());
+  for (std::size_t k = 0; k < count; ++k) {
+    const Point at = keypoints[k * keypoints.size() / count].position;
+    Frame a;
+    Frame b;
+    if (even.estimate(at, a) != Status::ok || odd.estimate(at, b) != Status::ok) continue;
+    ++both;
+    alike += detail::agree(a, b) ? 1u : 0u;
+  }
+  return both == 0 ? -1.0f : static_cast<float>(alike) / static_cast<float>(both);
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_BATCH_FRAME_AGREEMENT_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// What suggest() says; lengths are in the cloud's unit. Trivially copyable.
+struct Suggestion {
+  Status status;          ///< ok; or why there is nothing to suggest, and all else is 0
+  float radius;           ///< of the support
+  float leaf;             ///< of the key points: half the radius
+  float normal_radius;    ///< for SHOT and CSHOT: a quarter of it
+  float spacing;          ///< from a point to the nearest one elsewhere, median
+  float frame_agreement;  ///< at this radius, see frame_agreement(); negative if there are no frames to compare
+};
+
+}  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// Two digits: nobody wants to type more. 0 for what is no positive number.
+[[nodiscard]] inline float in_two_digits(float length) noexcept {
+  if (!(length > 0.0f) || !math::is_finite(length)) return 0.0f;
+  float tens = 1.0f;  // 10 to 99 of these
+  float tenths = 1.0f;
+  while (length >= 99.5f * tens) tens *= 10.0f;
+  while (length * tenths < 9.95f && tenths < 1e37f) tenths *= 10.0f;
+  return __builtin_roundf(length / tens * tenths) / tenths * tens;
+}
+
+[[nodiscard]] inline float largest_extent(const Diagnosis& d) noexcept {
+  return std::max({d.high.x - d.low.x, d.high.y - d.low.y, d.high.z - d.low.z});
+}
+
+/// The median distance from a point to the nearest one, whatever the cloud's unit: as diagnose() sees it. 0 if it sees
+/// none.
+[[nodiscard]] inline Status find_spacing(const CloudView& cloud, float& extent, float& spacing) {
+  extent = spacing = 0.0f;
+  Diagnosis d{};
+  const Status usable = validate(cloud);
+  if (usable != Status::ok) return usable;
+  look_at_all(cloud, d);
+  if (d.not_finite == 1.0f) return Status::empty_cloud;
+  extent = largest_extent(d);
+  if (extent > 0.0f && extent < 64.0f * std::max(float_spacing(d.low), float_spacing(d.high))) {
+    return Status::coarse_coordinates;
+  }
+  // Points of a surface that fills its box lie that far apart; where they are sparser the search widens by itself.
+  const float guess = extent / simd::sqrt(static_cast<float>(cloud.size));
+  if (validate(Radius(guess)) != Status::ok) return Status::bad_radius;
+  const GridSearch search(cloud, 2.0f * guess);
+  if (search.status() != Status::ok) return search.status();
+  Examination<GridSearch>(cloud, search, 2.0f * guess).look_at_some(d);
+  spacing = d.spacing;
+  if (d.status != Status::ok) return d.status;
+  if (!(spacing > 0.0f)) return Status::bad_radius;
+  return spacing < 8.0f * d.float_step ? Status::coarse_coordinates : Status::ok;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
+inline namespace SHORTSHOT_CODE {
+
+/// Lengths for a cloud of which nothing is known, not even its unit. Another cloud gets others: two clouds that are to
+/// be compared, and all views that a recognizer sees, must be described with the same ones.
+///
+/// The radius is 20 spacings, which hold a thousand points of a surface, as 4 cm do of what a depth camera sees a meter
+/// away; at most a third of the cloud's largest extent, beyond which all key points see the same, but 5 spacings at
+/// least. Where fewer than half of the frames repeat (frame_agreement()) it grows in two steps up to twice as much, as
+/// long as that helps. All in two digits.
+///
+/// `viewpoint`  what the frames will be turned to
+///
+/// Statuses: empty_cloud, bad_view, coarse_coordinates and what a GridSearch has; bad_radius where points have no
+/// distance: there are fewer than two places. Takes some milliseconds for each 100,000 points. Allocates a GridSearch
+/// and a copy of the cloud's coordinates. Reentrant; the same numbers on every machine.
+[[nodiscard]] inline Suggestion suggest(const CloudView& cloud, const Viewpoint& viewpoint = {}) {
+  Suggestion out{};
+  float extent = 0.0f;
+  out.status = validate(viewpoint);
+  if (out.status == Status::ok) out.status = detail::find_spacing(cloud, extent, out.spacing);
+  if (out.status != Status::ok) return {out.status, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+  constexpr float enough = 0.5f;
+  for (const float times : {1.0f, 1.4f, 2.0f}) {
+    const float least = 5.0f * out.spacing;
+    const float radius = detail::in_two_digits(std::max(least, std::min(20.0f * times * out.spacing, extent / 3.0f)));
+    const float agreement = frame_agreement(cloud, radius, 0.5f * radius, viewpoint);
+    if (times == 1.0f || agreement > out.frame_agreement) {
+      out.radius = radius;
+      out.frame_agreement = agreement;
+    }
+    if (agreement >= enough) break;
+  }
+  out.leaf = detail::in_two_digits(0.5f * out.radius);
+  out.normal_radius = detail::in_two_digits(0.25f * out.radius);
+  return out;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_BATCH_SUGGEST_HPP
+
+namespace shortshot {
+inline namespace SHORTSHOT_TYPES {
+
+/// How describe_cloud() describes. Defaults for objects on a table, seen by a depth camera at one meter: they are not
+/// taken from the cloud, so that two clouds are described alike. A radius of 0 asks for what suggest() says of this
+/// one.
+struct CloudOptions {
+  float radius = 0.04f;       ///< of the support, in meters; 0: suggested
+  float leaf = 0.02f;         ///< one key point in each occupied voxel of that many meters: its points' centroid; 0:
+                              ///< half the radius
+  float frame_radius = 0.0f;  ///< of the local reference frame, in meters; 0: the support's
+  float best_frames = 1.0f;   ///< above 0, at most 1: share of the key points that is kept, those with surest frames
+  Viewpoint viewpoint;        ///< turns the frames' z; Viewpoint::towards({0, 0, 0}): a camera at the origin
+  unsigned threads = 1;       ///< that share the work
+};
+
+}  // namespace SHORTSHOT_TYPES
+inline namespace SHORTSHOT_CODE {
+
+/// Describes a whole cloud: key points by sample_centroids(), neighbors by a GridSearch, rows by an Extractor. `out`
+/// has the key points, too.
+///
+/// Statuses: empty_cloud, bad_view, bad_leaf, bad_radius, bad_viewpoint, missing_colors, missing_normals (for SHOT and
+/// CSHOT: estimate_normals() first), missing_intensities, coarse_coordinates, bad_option (best_frames); `out` is empty,
+/// or all its rows have that status. Each row has a status of its own. Allocates what those three do, anew in every
+/// call; for cloud after cloud take them one by one.
+template <class D>
+[[nodiscard]] Status describe_cloud(const CloudView& cloud, const CloudOptions& options, Features<D>& out) {
+  detail::clear_rows(out, 0, Status::ok);
+  float radius = options.radius;
+  if (radius == 0.0f) {
+    const Suggestion suggested = suggest(cloud, options.viewpoint);
+    if (suggested.status != Status::ok) return suggested.status;
+    radius = suggested.radius;
+  }
+  Support support = radius;
+  if (options.frame_radius != 0.0f) support.frame_radius = Radius(options.frame_radius);
+  support.viewpoint = options.viewpoint;
+  std::vector<KeyPoint> keypoints;
+  Status status = validate(support.radius);
+  const float leaf = options.leaf == 0.0f ? 0.5f * radius : options.leaf;
+  if (status == Status::ok) status = sample_centroids(cloud, leaf, keypoints);
+  if (status != Status::ok) return status;
+  const GridSearch search(cloud, radius);
+  status = Extractor<D>().extract(cloud, search, keypoints, support, out, options.threads);
+  return status == Status::ok ? keep_best_frames(out, options.best_frames) : status;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot
+#endif  // SHORTSHOT_BATCH_DESCRIBE_CLOUD_HPP
 
 // shortshot/batch/copy_point_cloud2.hpp: copies of sensor_msgs/PointCloud2-shaped messages that cannot be viewed as
 // they are: padded rows, the other byte order, doubles and integers. Hosted only: allocates.

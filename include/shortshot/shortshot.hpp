@@ -31,6 +31,8 @@
 #include "batch/mark_neighbors.hpp"
 #include "batch/describe_cloud.hpp"
 #include "batch/diagnose.hpp"
+#include "batch/frame_agreement.hpp"
+#include "batch/suggest.hpp"
 #include "batch/copy_point_cloud2.hpp"
 #include "batch/to_pcl.hpp"
 #include "store/features_file.hpp"

@@ -13,20 +13,8 @@ using shortshot::CloudView;
 using shortshot::Diagnosis;
 using shortshot::Status;
 
-/// Two digits: nobody wants to type more.
-double rounded(double length) {
-  if (!(length > 0.0)) return 0.0;
-  const double unit = std::pow(10.0, std::floor(std::log10(length)) - 1.0);
-  return std::round(length / unit) * unit;
-}
-
-/// A radius of 20 spacings holds a thousand points of a surface, as one of 4 cm does of what a depth camera sees a
-/// meter away.
-double fitting_radius(const Diagnosis& d) { return rounded(20.0 * static_cast<double>(d.spacing)); }
-
-float largest_extent(const Diagnosis& d) {
-  return std::max({d.high.x - d.low.x, d.high.y - d.low.y, d.high.z - d.low.z});
-}
+using shortshot::detail::in_two_digits;
+using shortshot::detail::largest_extent;
 
 float largest_coordinate(const Diagnosis& d) {
   float largest = 0.0f;
@@ -119,7 +107,7 @@ void say_of_lengths(const Diagnosis& d, const DemoOptions& options, std::vector<
   if (needs_normals && normal_radius(options) < 2.0f * d.spacing) {
     advice.push_back(text("normals within %g are those of a few points, which lie %.2g apart: --normal-radius %g",
                           static_cast<double>(normal_radius(options)), static_cast<double>(d.spacing),
-                          rounded(5.0 * static_cast<double>(d.spacing))));
+                          static_cast<double>(in_two_digits(5.0f * d.spacing))));
   }
   if (options.leaf < 0.5f * d.spacing) {
     advice.push_back(text("voxels of %g are smaller than what lies between points, %.2g: every point is a key point",
@@ -154,10 +142,10 @@ std::vector<std::string> advice_on(const Diagnosis& d, const CloudView& cloud, c
   return advice;
 }
 
-std::string fitting_options(const Diagnosis& d) {
-  const double radius = fitting_radius(d);
-  if (!(radius > 0.0) || d.spacing < 8.0f * d.float_step) return {};
-  return text("--radius %g --leaf %g --normal-radius %g", radius, rounded(0.5 * radius), rounded(0.25 * radius));
+std::string fitting_options(const shortshot::Suggestion& suggested) {
+  if (suggested.status != Status::ok) return {};
+  return text("--radius %g --leaf %g --normal-radius %g", static_cast<double>(suggested.radius),
+              static_cast<double>(suggested.leaf), static_cast<double>(suggested.normal_radius));
 }
 
 }  // namespace shortshot_bench

@@ -13,7 +13,7 @@ namespace shortshot_bench {
 std::vector<std::string> advice_on(const shortshot::Diagnosis& diagnosis, const shortshot::CloudView& cloud,
                                    const DemoOptions& options);
 
-/// Options that fit the cloud's own spacing; empty if it is not known.
-std::string fitting_options(const shortshot::Diagnosis& diagnosis);
+/// What is suggested, as options; empty if nothing is.
+std::string fitting_options(const shortshot::Suggestion& suggested);
 
 }  // namespace shortshot_bench

@@ -1,7 +1,5 @@
 #include "tools/demo/diagnose.hpp"
 
-#include <algorithm>
-#include <cstddef>
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -18,22 +16,6 @@ namespace {
 using shortshot::CloudView;
 using shortshot::Diagnosis;
 using shortshot::Status;
-
-/// The even or the odd points of a cloud.
-std::vector<float> half_of(const CloudView& cloud, std::size_t first) {
-  std::vector<float> xyz;
-  for (std::size_t i = first; i < cloud.size; i += 2) {
-    const shortshot::Point p = shortshot::point(cloud, i);
-    xyz.insert(xyz.end(), {p.x, p.y, p.z});
-  }
-  return xyz;
-}
-
-/// Axes less than 20 degrees apart.
-bool agree(const shortshot::Frame& a, const shortshot::Frame& b) {
-  const auto cosine = [](const float(&u)[3], const float(&v)[3]) { return u[0] * v[0] + u[1] * v[1] + u[2] * v[2]; };
-  return cosine(a.x, b.x) > 0.94f && cosine(a.y, b.y) > 0.94f && cosine(a.z, b.z) > 0.94f;
-}
 
 void print_numbers(const Diagnosis& d, const CloudView& cloud, const DemoOptions& options) {
   const auto line = [](const char* name, const std::string& value) {
@@ -67,7 +49,7 @@ void print_frames(const CloudView& cloud, const DemoOptions& options, const shor
   float at_radius = -1.0f;
   for (const float factor : {0.5f, 1.0f, 2.0f, 4.0f}) {
     const float radius = factor * options.radius;
-    const float share = frame_agreement(cloud, radius, options.leaf, viewpoint);
+    const float share = shortshot::frame_agreement(cloud, radius, options.leaf, viewpoint);
     if (share < 0.0f) continue;
     if (factor == 1.0f) at_radius = share;
     agreements +=
@@ -91,33 +73,6 @@ shortshot::Support support_of(const RgbdCloud& cloud, const DemoOptions& options
 
 }  // namespace
 
-float frame_agreement(const CloudView& cloud, float radius, float leaf, const shortshot::Viewpoint& viewpoint) {
-  std::vector<shortshot::KeyPoint> centroids;
-  if (shortshot::sample_centroids(cloud, leaf, centroids) != Status::ok) return -1.0f;
-  constexpr std::size_t most = 200;
-  std::vector<shortshot::KeyPoint> keypoints;
-  for (std::size_t k = 0; k < std::min(most, centroids.size()); ++k) {
-    keypoints.push_back(centroids[k * centroids.size() / std::min(most, centroids.size())]);
-  }
-  shortshot::Support support = radius;
-  support.viewpoint = viewpoint;
-  shortshot::Features<shortshot::Ssh32> halves[2];
-  for (std::size_t first = 0; first < 2; ++first) {
-    const std::vector<float> xyz = half_of(cloud, first);
-    const CloudView half = shortshot::view_xyz(xyz.data(), xyz.size() / 3);
-    const shortshot::GridSearch search(half, radius);
-    if (shortshot::extract(half, search, keypoints, support, halves[first]) != Status::ok) return -1.0f;
-  }
-  std::size_t both = 0;
-  std::size_t alike = 0;
-  for (std::size_t k = 0; k < keypoints.size(); ++k) {
-    if (halves[0].status[k] != Status::ok || halves[1].status[k] != Status::ok) continue;
-    ++both;
-    alike += agree(halves[0].frames[k], halves[1].frames[k]) ? 1 : 0;
-  }
-  return both == 0 ? -1.0f : static_cast<float>(alike) / static_cast<float>(both);
-}
-
 Diagnosis diagnosis_of(const RgbdCloud& cloud, const DemoOptions& options) {
   const SlowStage stage("looking at " + std::to_string(cloud.size()) + " points");
   const CloudView view = view_of_cloud(cloud);
@@ -132,8 +87,8 @@ bool print_diagnosis(const RgbdCloud& cloud, const DemoOptions& options) {
   if (diagnosis.status == Status::ok) {
     print_numbers(diagnosis, view, options);
     print_frames(view, options, support_of(cloud, options).viewpoint);
-    const std::string fitting = fitting_options(diagnosis);
-    if (!fitting.empty()) std::printf("  %-19s %s\n", "fits the spacing", fitting.c_str());
+    const std::string fitting = fitting_options(shortshot::suggest(view, camera_of_cloud(cloud)));
+    if (!fitting.empty()) std::printf("  %-19s %s\n", "suggested", fitting.c_str());
   }
   for (const std::string& sentence : advice) std::printf("  %-19s %s\n", "WRONG", sentence.c_str());
   if (advice.empty()) std::printf("  %-19s %s\n", "nothing is wrong", "with these points and this radius");

@@ -21,12 +21,17 @@
 #include "tools/demo/options.hpp"
 #include "tools/demo/run.hpp"
 #include "tools/demo/slow_stage.hpp"
+#include "tools/demo/text.hpp"
+#include "tools/io/folder_name.hpp"
 #include "tools/io/input_error.hpp"
 #include "tools/io/read_cloud.hpp"
 #include "tools/io/repeated_points.hpp"
 #include "tools/io/view_of_cloud.hpp"
 #include "tools/io/write_descriptor_pcd.hpp"
 #include "tools/io/write_npy.hpp"
+#include "tools/match/match.hpp"
+#include "tools/match/pictures.hpp"
+#include "tools/picture/marks.hpp"
 #include "tools/scene/tabletop.hpp"
 
 namespace {
@@ -126,13 +131,53 @@ void write_result(const RgbdCloud& cloud, const DemoOptions& options, const Demo
               result.size);
 }
 
+/// Lengths that nobody asked for, of a file's cloud.
+void choose_lengths(const RgbdCloud& cloud, DemoOptions& options) {
+  if (options.suggest_radius) {
+    const shortshot::Suggestion suggested = shortshot::suggest(view_of_cloud(cloud), camera_of_cloud(cloud));
+    if (suggested.status != shortshot::Status::ok) return;  // describing says it, too, and of what
+    options.radius = suggested.radius;
+    print_note(text("radius %g, suggested by points that lie %.2g apart (--radius R takes another)",
+                    static_cast<double>(options.radius), static_cast<double>(suggested.spacing)));
+  }
+  if (options.suggest_leaf) options.leaf = shortshot::detail::in_two_digits(0.5f * options.radius);
+}
+
+/// Of the generated scene another view is found in it; of a file's cloud there is no other.
+void draw(const RgbdCloud& cloud, const std::string& file, const DemoOptions& options, const DemoResult& result) {
+  const SlowStage stage("matching and drawing");
+  constexpr std::size_t width = 1600;
+  if (file.empty()) {
+    TabletopOptions turned;
+    turned.turn = 0.25;
+    const RgbdCloud other = make_tabletop(turned);
+    MatchOptions how;
+    how.radius = options.radius;
+    how.leaf = options.leaf;
+    how.threads = options.threads;
+    const MatchResult match = match_clouds(cloud, other, how);
+    draw_matches({"generated scene", cloud}, {"the same, turned", other}, match, width).write_png(options.picture);
+    std::printf("  match               another view of the scene: %s\n", verdict_of(match).c_str());
+  } else {
+    picture::MarkedCloud marked;
+    for (const std::uint32_t i : result.keypoints) {
+      marked.dots.push_back({cloud.xyz[3 * i], cloud.xyz[3 * i + 1], cloud.xyz[3 * i + 2]});
+    }
+    marked.title = std::to_string(result.keypoints.size()) + " key points, each described within " +
+                   text("%g m", static_cast<double>(options.radius));
+    marked.legend = marked.dots.size() > 800 ? "dots: some of the key points" : "dots: key points";
+    draw_marked({folder_name(file), cloud}, marked, width).write_png(options.picture);
+  }
+  std::printf("  picture             %s\n", options.picture.c_str());
+}
+
 RgbdCloud read(const std::string& file) {
   const SlowStage stage("reading");
   return file.empty() ? make_tabletop() : read_cloud(file);
 }
 
 /// 0: described; 1: --check found a difference, or --diagnose something wrong; 2: bad input, said on stderr.
-int demonstrate(const std::string& file, const DemoOptions& options) {
+int demonstrate(const std::string& file, DemoOptions options) {
   const bool generated = file.empty();
   try {
     std::error_code not_there;
@@ -147,10 +192,12 @@ int demonstrate(const std::string& file, const DemoOptions& options) {
     print_cloud(cloud, read_ms, dropped);
     std::fflush(stdout);  // before what stderr may say
     if (options.diagnose) return print_diagnosis(cloud, options) ? 0 : 1;
+    choose_lengths(cloud, options);
     const DemoResult result = run_demo(cloud, options);
     print_result(cloud, options, result);
     if (!options.out.empty()) write_result(cloud, options, result);
     if (options.check && !check_searches(cloud, options)) return 1;
+    if (!options.picture.empty()) draw(cloud, file, options, result);
     return 0;
   } catch (const InputError& error) {
     std::fprintf(stderr, "%s\n", error.what());

@@ -11,12 +11,15 @@ namespace shortshot_bench {
 struct DemoOptions {
   std::vector<std::string> clouds;  // files; empty: the generated tabletop
   std::string descriptor = "scsh336";
-  float radius = 0.04f;
+  float radius = 0.04f;  // of the generated scene; of a file's cloud what is suggested, where none is asked for
   std::optional<float> normal_radius;  // of the normals, where it needs them; the file's, or a quarter of the radius
   float leaf = 0.02f;
   std::string search = "grid";
   unsigned threads = 1;
-  std::string out;  // empty: nothing is written
+  std::string out;              // empty: nothing is written
+  bool suggest_radius = false;  // neither was asked for: suggest()
+  bool suggest_leaf = false;
+  std::string picture;  // of two views that are matched, or of the cloud with its key points; empty: none
   bool towards_camera = false;
   bool check = false;
   bool drop_zeros = false;      // points of (0, 0, 0) are no measurements

@@ -2,7 +2,6 @@
 #include "tools/scene/object_views.hpp"
 
 #include <array>
-#include <cmath>
 
 #include "tools/io/valid_points.hpp"
 #include "tools/scene/objects.hpp"
@@ -15,15 +14,6 @@ using namespace scene_detail;
 
 constexpr std::array<Kind, 5> object_kinds{{Kind::box, Kind::can, Kind::ball, Kind::bowl, Kind::mug}};
 constexpr std::array<const char*, 5> object_classes{{"box", "can", "ball", "bowl", "mug"}};
-
-// As turn_around_z() counts: along a square, without an angle's sine.
-Vec3 direction_of(double turn) {
-  const double whole = std::floor(turn);
-  const double part = turn - whole;
-  Vec3 v{1.0 - part, part, 0.0};
-  for (int quarter = static_cast<int>(whole) % 4; quarter > 0; --quarter) v = {-v.y, v.x, 0.0};
-  return v * (1.0 / norm(v));
-}
 
 }  // namespace
 

@@ -152,6 +152,15 @@ inline double turn_around_z(const Vec3& p) {
   return p.x < 0.0 ? 2.0 - ratio : (ratio < 0.0 ? 4.0 + ratio : ratio);
 }
 
+// A horizontal direction, as turn_around_z() counts: along a square, without an angle's sine.
+inline Vec3 direction_of(double turn) {
+  const double whole = std::floor(turn);
+  const double part = turn - whole;
+  Vec3 v{1.0 - part, part, 0.0};
+  for (int quarter = static_cast<int>(whole) % 4; quarter > 0; --quarter) v = {-v.y, v.x, 0.0};
+  return v * (1.0 / norm(v));
+}
+
 // Where on a solid a point lies: u along and v up its face, in meters, 0 in the middle of the face.
 struct FacePoint {
   double u, v, half_u, half_v;

@@ -92,11 +92,26 @@ Scene make_scene(std::uint32_t seed) {
   return scene;
 }
 
+Vec3 turned(const Vec3& v, const Vec3& x_axis) {
+  return {x_axis.x * v.x - x_axis.y * v.y, x_axis.y * v.x + x_axis.x * v.y, v.z};
+}
+
+void turn_scene(double turn, Scene& scene) {
+  const Vec3 x_axis = direction_of(turn);
+  for (Solid& solid : scene.solids) {
+    solid.base = turned(solid.base, x_axis);
+    solid.x_axis = turned(solid.x_axis, x_axis);
+  }
+  scene.lamp = turned(scene.lamp, x_axis);
+}
+
 }  // namespace
 
 RgbdCloud make_tabletop(const TabletopOptions& options) {
-  const Scene scene = make_scene(options.seed);
-  return record(scene, {options.seed, options.width, options.height, options.noise_scale});
+  Scene scene = make_scene(options.seed);
+  if (options.turn == 0.0) return record(scene, {options.seed, options.width, options.height, options.noise_scale});
+  turn_scene(options.turn, scene);
+  return record(scene, {~options.seed, options.width, options.height, options.noise_scale});
 }
 
 }  // namespace shortshot_bench

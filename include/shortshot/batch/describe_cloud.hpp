@@ -17,14 +17,18 @@
 #include "grid_search.hpp"
 #include "keep_best_frames.hpp"
 #include "keypoints.hpp"
+#include "suggest.hpp"
 
 namespace shortshot {
 inline namespace SHORTSHOT_TYPES {
 
-/// How describe_cloud() describes. Defaults for objects on a table, seen by a depth camera at one meter.
+/// How describe_cloud() describes. Defaults for objects on a table, seen by a depth camera at one meter: they are not
+/// taken from the cloud, so that two clouds are described alike. A radius of 0 asks for what suggest() says of this
+/// one.
 struct CloudOptions {
-  float radius = 0.04f;       ///< of the support, in meters
-  float leaf = 0.02f;         ///< one key point in each occupied voxel of that many meters: its points' centroid
+  float radius = 0.04f;       ///< of the support, in meters; 0: suggested
+  float leaf = 0.02f;         ///< one key point in each occupied voxel of that many meters: its points' centroid; 0:
+                              ///< half the radius
   float frame_radius = 0.0f;  ///< of the local reference frame, in meters; 0: the support's
   float best_frames = 1.0f;   ///< above 0, at most 1: share of the key points that is kept, those with surest frames
   Viewpoint viewpoint;        ///< turns the frames' z; Viewpoint::towards({0, 0, 0}): a camera at the origin
@@ -44,14 +48,21 @@ inline namespace SHORTSHOT_CODE {
 template <class D>
 [[nodiscard]] Status describe_cloud(const CloudView& cloud, const CloudOptions& options, Features<D>& out) {
   detail::clear_rows(out, 0, Status::ok);
-  Support support = options.radius;
+  float radius = options.radius;
+  if (radius == 0.0f) {
+    const Suggestion suggested = suggest(cloud, options.viewpoint);
+    if (suggested.status != Status::ok) return suggested.status;
+    radius = suggested.radius;
+  }
+  Support support = radius;
   if (options.frame_radius != 0.0f) support.frame_radius = Radius(options.frame_radius);
   support.viewpoint = options.viewpoint;
   std::vector<KeyPoint> keypoints;
   Status status = validate(support.radius);
-  if (status == Status::ok) status = sample_centroids(cloud, options.leaf, keypoints);
+  const float leaf = options.leaf == 0.0f ? 0.5f * radius : options.leaf;
+  if (status == Status::ok) status = sample_centroids(cloud, leaf, keypoints);
   if (status != Status::ok) return status;
-  const GridSearch search(cloud, options.radius);
+  const GridSearch search(cloud, radius);
   status = Extractor<D>().extract(cloud, search, keypoints, support, out, options.threads);
   return status == Status::ok ? keep_best_frames(out, options.best_frames) : status;
 }
