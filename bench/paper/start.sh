@@ -19,13 +19,14 @@ build_fpfh() {
     at_root cmake --build --preset peers --parallel "$(nproc 2>/dev/null || echo 2)" --target "fpfh_$1"
 }
 
+libraries="pcl open3d"
 case " $* " in
-  *" --help "*) ;;
-  " registration "*" --quick "*) say "FPFH is left out: --quick" ;;
-  " registration "*)
-    for library in pcl open3d; do
-      if build_fpfh "$library"; then set -- "$@" --peer "fpfh-$library=$root/build/peers/bench/fpfh_$library"; fi
-    done
-    ;;
+  *" --quick "*) libraries="" ;;
 esac
+if [ "${1-}" = registration ]; then
+  [ -n "$libraries" ] || say "FPFH is left out: --quick"
+  for library in $libraries; do
+    if build_fpfh "$library"; then set -- "$@" --peer "fpfh-$library=$root/build/peers/bench/fpfh_$library"; fi
+  done
+fi
 show "$root/build/default/bench/paper" "$@"

@@ -100,7 +100,7 @@ expect "cmake --build --preset peers .*--target fpfh_pcl$"
 refuse "fpfh_open3d"
 grep -q "FPFH of open3d is left out: libopen3d-dev" "$directory/out" || fail "nothing is said of Open3D's FPFH"
 grep -q "paper registration data --peer fpfh-pcl=" "$directory/out" || fail "PCL's FPFH is not compared"
-attempt paper registration data --quick
+attempt paper registration --quick data
 refuse "fpfh_"
 
 echo "a name that no file of tests has, or several have: the files are named"
