@@ -1,4 +1,4 @@
-// The paper's experiments: paper matching|recognition|ablation DATA... and paper merge FOLDER...
+// The paper's experiments: paper matching|registration|recognition|ablation DATA... and paper merge FOLDER...
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -7,6 +7,7 @@
 #include "paper/matching_experiment.hpp"
 #include "paper/options.hpp"
 #include "paper/recognition_experiment.hpp"
+#include "paper/registration_experiment.hpp"
 #include "speed/scaling/json_rows.hpp"
 
 namespace {
@@ -16,6 +17,7 @@ using namespace shortshot_bench::paper;
 
 Experiment experiment_of(const PaperOptions& options) {
   if (options.command == "matching") return matching_experiment(options);
+  if (options.command == "registration") return registration_experiment(options);
   if (options.command == "recognition") return recognition_experiment(options);
   return ablation_experiment(options, family());
 }
@@ -23,6 +25,7 @@ Experiment experiment_of(const PaperOptions& options) {
 Findings findings_of(const nlohmann::ordered_json& parameters, const UnitResults& results, const std::string& out) {
   const std::string experiment = parameters.at("experiment");
   if (experiment == "matching") return matching_report(parameters, results, out);
+  if (experiment == "registration") return registration_report(parameters, results, out);
   if (experiment == "recognition") return recognition_report(parameters, results);
   return ablation_report(parameters, results, out);
 }

@@ -9,6 +9,7 @@
 
 #include "paper/configuration.hpp"
 #include "paper/datasets/pair_sets.hpp"
+#include "paper/pose_trials.hpp"
 #include "paper/view.hpp"
 
 namespace shortshot_bench::paper {
@@ -25,15 +26,6 @@ struct MatchingSettings {
 
 /// The protocol's for a PairSet of that name: "object-scene", "views" or "frames".
 MatchingSettings matching_settings(const std::string& kind);
-
-/// One run of RANSAC.
-struct Trial {
-  bool found = false;          // a motion; if not, the rest means nothing
-  double t_diff = 0.0;         // equation 9
-  double rotation_deg = 0.0;   // between the motion and the true one
-  double translation_m = 0.0;  // between where both bring the centroid of the source's key points
-  std::size_t inliers = 0;     // c_r
-};
 
 /// What one descriptor makes of one pair.
 struct Matching {
@@ -53,8 +45,5 @@ std::vector<Matching> match_pair(const datasets::ViewPair& pair, const MatchingS
 
 nlohmann::ordered_json to_json(const std::vector<Matching>& matchings);
 std::vector<Matching> matchings_of(const nlohmann::ordered_json& json);
-
-/// Equation 9: the Frobenius norm of the difference of two 4 x 4 motions, row-major.
-double t_diff(const datasets::RigidMotion& a, const datasets::RigidMotion& b);
 
 }  // namespace shortshot_bench::paper

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "paper/contenders.hpp"
 #include "paper/kept_frames.hpp"
 #include "tools/io/finite_and_positive.hpp"
 
@@ -41,11 +42,14 @@ bool parse_options(int argc, const char* const* argv, PaperOptions& options, int
   std::string shard = "1/1";
   std::vector<unsigned> kept_percentages;
   CLI::App* const matching = add_experiment(app, "matching", "key-point matching (section VI-A)", options, shard);
+  CLI::App* const registration = add_experiment(app, "registration", "poses from matches, PR curves", options, shard);
   CLI::App* const recognition = add_experiment(app, "recognition", "object recognition (VI-B)", options, shard);
   add_experiment(app, "ablation", "sizes of SCSH (VI-C)", options, shard);
-  for (CLI::App* const command : {matching, recognition}) {
-    command->add_option("--descriptor", options.descriptors, "those to compare, the baseline first (all; quick: three)")
+  for (CLI::App* const command : {matching, registration, recognition}) {
+    command->add_option("--descriptor", options.descriptors, "those to compare, the baseline first (all; quick: a few)")
         ->delimiter(',');
+  }
+  for (CLI::App* const command : {matching, recognition}) {
     command
         ->add_option("--keep-frames", kept_percentages,
                      "each also with these percentages of the key points only: those with the surest frames, and as "
@@ -53,8 +57,12 @@ bool parse_options(int argc, const char* const* argv, PaperOptions& options, int
         ->delimiter(',')
         ->check(CLI::Range(1, 99));
   }
-  matching->add_option("--tolerance", options.tolerance_m, "meters by which a correct match and an inlier may miss")
-      ->check(finite_and_positive);
+  for (CLI::App* const command : {matching, registration}) {
+    command->add_option("--tolerance", options.tolerance_m, "meters by which a correct match and an inlier may miss")
+        ->check(finite_and_positive);
+  }
+  registration->add_option("--peer", options.peers,
+                           "NAME=PROGRAM: what another program makes of key points (bench/paper/peer_program.hpp)");
   matching->add_flag("--all-of-target", options.all_of_target,
                      "--keep-frames leaves out key points of the source only");
   recognition->add_option("--up", options.up, "the axis of meshes that points up")
@@ -74,7 +82,9 @@ bool parse_options(int argc, const char* const* argv, PaperOptions& options, int
   options.command = app.get_subcommands().front()->get_name();
   if (options.out.empty()) options.out = "paper-" + options.command;
   options.shard = campaign::parse_shard(shard);
-  if (options.descriptors.empty()) {
+  if (options.descriptors.empty() && options.command == "registration") {
+    options.descriptors = registration_names(options.quick);
+  } else if (options.descriptors.empty()) {
     options.descriptors = {"cshot1344", "shot352", "scsh336", "scsh696", "ssh96", "ssh32"};
     if (options.quick) options.descriptors = {"cshot1344", "scsh336", "ssh96"};
   }

@@ -11,10 +11,11 @@
 namespace shortshot_bench::paper {
 
 struct PaperOptions {
-  std::string command;            // matching, recognition, ablation or merge
+  std::string command;            // matching, registration, recognition, ablation or merge
   std::vector<std::string> data;  // folders: data sets; of merge: results
   std::string out;                // folder of the results
   std::vector<std::string> descriptors;
+  std::vector<std::string> peers;  // registration: NAME=PROGRAM, see peer_program.hpp
   campaign::Shard shard;
   unsigned threads = 0;  // 0: as many as there are cores
   std::uint32_t seed = 1;

@@ -44,4 +44,15 @@ RightMatches count_right_nearest(const Described& source, const Described& targe
   return count;
 }
 
+ReciprocalMatches match_reciprocally(const Described& source, const Described& target, const Truth& truth) {
+  std::vector<shortshot::MatchedPair> correspondences;
+  require(shortshot::reciprocal_correspondences(source.rows().descriptors, target.rows().descriptors, correspondences));
+  ReciprocalMatches matches;
+  for (const shortshot::MatchedPair& c : correspondences) {
+    matches.pairs.push_back({source.keypoints[c.source].position, target.keypoints[c.target].position});
+    if (truth.is_right(c.source, c.target)) ++matches.right;
+  }
+  return matches;
+}
+
 }  // namespace shortshot_bench::paper

@@ -39,4 +39,11 @@ struct RightMatches {
 /// Of the source's key points that have a counterpart, those whose nearest neighbor is one.
 RightMatches count_right_nearest(const Described& source, const Described& target, const Truth& truth);
 
+/// Reciprocal nearest neighbors.
+struct ReciprocalMatches {
+  std::vector<shortshot::PointPair> pairs;
+  std::size_t right = 0;
+};
+ReciprocalMatches match_reciprocally(const Described& source, const Described& target, const Truth& truth);
+
 }  // namespace shortshot_bench::paper

@@ -30,6 +30,9 @@ class View {
 
   const std::vector<shortshot::KeyPoint>& keypoints() const { return keypoints_; }
   bool has_colors() const { return cloud_.has_colors(); }
+  const RgbdCloud& cloud() const { return cloud_; }
+  const std::vector<shortshot::SurfaceNormal>& normals() const { return normals_; }
+  const ViewSettings& settings() const { return settings_; }
   const shortshot::Point& center() const { return center_; }  // the mean of all valid points
 
   Described describe(const Configuration& configuration) const;

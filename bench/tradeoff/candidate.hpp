@@ -6,9 +6,14 @@
 #include <vector>
 
 #include "paper/configuration.hpp"
-#include "tradeoff/storage.hpp"
+#include "paper/storage.hpp"
 
 namespace shortshot_bench::tradeoff {
+
+using paper::coded;
+using paper::float_storage;
+using paper::packed_storage;
+using paper::Storage;
 
 /// Of the papers, of the library, or a relative of those with other grids.
 enum class Kind { published, compact, relative };

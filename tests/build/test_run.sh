@@ -90,6 +90,19 @@ grep -q "Open3D is left out" "$directory/out" || fail "nothing is said of Open3D
 expect "cmake --build --preset peers"
 stub apt-get "echo apt-get \"\$@\" >>'$log'"
 
+echo "registration: FPFH of what is installed is compared, of the others it is left out, said so; --quick leaves out both"
+mkdir -p "$directory/bench/paper"
+cp "$(dirname "$1")/bench/paper/start.sh" "$directory/bench/paper"
+lacks libopen3d-dev
+attempt paper registration data
+[ "$code" = 127 ] || fail "exit code $code, not 127"
+expect "cmake --build --preset peers .*--target fpfh_pcl$"
+refuse "fpfh_open3d"
+grep -q "FPFH of open3d is left out: libopen3d-dev" "$directory/out" || fail "nothing is said of Open3D's FPFH"
+grep -q "paper registration data --peer fpfh-pcl=" "$directory/out" || fail "PCL's FPFH is not compared"
+attempt paper registration --quick data
+refuse "fpfh_"
+
 echo "a name that no file of tests has, or several have: the files are named"
 for name in otin twice ''; do
   attempt unit $name

@@ -20,6 +20,8 @@ std::string number(double value, const char* otherwise) {
   return text.str();
 }
 
+bool has_bars(const Series& series) { return !series.lows.empty() || !series.highs.empty(); }
+
 bool has_second_y(const Plot& plot) {
   return std::any_of(plot.series.begin(), plot.series.end(), [](const Series& s) { return s.on_second_y; });
 }
@@ -42,6 +44,9 @@ void refuse_unless_drawable(const Plot& plot) {
   for (const Series& series : plot.series) {
     if (series.xs.size() != series.ys.size()) {
       throw std::invalid_argument("plot '" + plot.title + "': '" + series.name + "' has not as many ys as xs");
+    }
+    if (has_bars(series) && (series.lows.size() != series.xs.size() || series.highs.size() != series.xs.size())) {
+      throw std::invalid_argument("plot '" + plot.title + "': '" + series.name + "' has not a bar for each point");
     }
   }
   if (std::none_of(plot.series.begin(), plot.series.end(), [&](const Series& s) { return has_points(plot, s); })) {
@@ -69,13 +74,15 @@ std::string axis_commands(const std::string& name, const Axis& axis) {
   return text + (axis.ticks.empty() ? "\n" : ")\n");
 }
 
-/// One block of lines "x y" for each series; where nothing is drawn the line is interrupted.
+/// One block of lines "x y" or "x y low high" for each series; where nothing is drawn the line is interrupted.
 std::string data_blocks(const Plot& plot) {
   std::string text = "$data << END\n";
   for (const Series& series : plot.series) {
     for (std::size_t i = 0; i < series.xs.size(); ++i) {
       const bool drawn = is_drawn(plot, series, i);
-      text += number(series.xs[i], no_value) + ' ' + (drawn ? number(series.ys[i], no_value) : no_value) + '\n';
+      text += number(series.xs[i], no_value) + ' ' + (drawn ? number(series.ys[i], no_value) : no_value);
+      if (has_bars(series)) text += ' ' + number(series.lows[i], no_value) + ' ' + number(series.highs[i], no_value);
+      text += '\n';
     }
     text += (series.xs.empty() ? std::string(no_value) + '\n' : "") + "\n\n";
   }
@@ -85,10 +92,11 @@ std::string data_blocks(const Plot& plot) {
 /// A series without points is named all the same: it was measured.
 std::string series_command(const Plot& plot, std::size_t index) {
   const Series& series = plot.series[index];
-  const std::string data =
-      "$data index " + std::to_string(index) + " using 1:2 axes x1" + (series.on_second_y ? "y2" : "y1");
+  const std::string data = "$data index " + std::to_string(index) + " using " + (has_bars(series) ? "1:2:3:4" : "1:2") +
+                           " axes x1" + (series.on_second_y ? "y2" : "y1");
   const std::string color = std::to_string(series.color > 0 ? series.color : static_cast<int>(index) + 1);
-  return (has_points(plot, series) ? data : "keyentry") + " with linespoints linetype " + color +
+  return (has_points(plot, series) ? data : "keyentry") +
+         (has_bars(series) ? " with yerrorbars" : " with linespoints") + " linetype " + color +
          (series.dashed        ? " dashtype 2"
           : series.on_second_y ? " dashtype 3"
                                : "") +

@@ -1,4 +1,4 @@
-// Line plots of results as SVG: one line with points for each series.
+// Plots of results as SVG: for each series a line with points, or points with intervals.
 #pragma once
 
 #include <limits>
@@ -32,7 +32,9 @@ struct Series {
   std::vector<double> ys{};  // as many; one that is not finite is a gap in the line
   int color = 0;             // 1 to 8: the same color for series that belong together; 0: by its place in the list
   bool dashed = false;
-  bool on_second_y = false;  // dotted, unless dashed
+  bool on_second_y = false;     // dotted, unless dashed
+  std::vector<double> lows{};   // if there are any, as many as xs: points with bars from here
+  std::vector<double> highs{};  // to here, and no line: where neighbors on the axis have no order
 };
 
 struct Plot {
@@ -47,7 +49,7 @@ struct Plot {
 };
 
 /// What gnuplot is to read, without any path or date. Throws std::invalid_argument if a series has not as many ys as
-/// xs, or if none has anything to draw.
+/// xs, or lows or highs, if none has anything to draw.
 std::string plot_script(const Plot& plot);
 
 /// Draws the plot by draw_svg(), which see for what is thrown.

@@ -103,4 +103,17 @@ Interval bootstrap_ratio(const std::vector<std::vector<Fraction>>& groups, std::
   return interval_of_ratio(sums, seed, rounds);
 }
 
+Interval bootstrap_of(std::size_t groups,
+                      const std::function<std::optional<double>(const std::vector<std::size_t>& drawn)>& statistic,
+                      std::uint64_t seed, unsigned rounds) {
+  std::vector<std::size_t> places(groups);
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  const auto of_places = [&](const std::vector<const std::size_t*>& drawn) {
+    std::vector<std::size_t> list;
+    for (const std::size_t* place : drawn) list.push_back(*place);
+    return statistic(list);
+  };
+  return percentile_interval(places, of_places, seed, rounds);
+}
+
 }  // namespace shortshot_bench::campaign

@@ -1,7 +1,10 @@
 // Figures of many items and how far they would move with other items: bootstrap intervals.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "speed/timing/clock.hpp"  // median()
@@ -43,6 +46,12 @@ Interval bootstrap(const std::vector<std::vector<double>>& groups, Statistic sta
 /// count; std::invalid_argument if those of all items are.
 Interval bootstrap_ratio(const std::vector<std::vector<Fraction>>& groups, std::uint64_t seed,
                          unsigned rounds = bootstrap_rounds);
+
+/// The same of any statistic of the groups that were drawn, which are known by their places among all; rounds in which
+/// it has no value do not count. std::invalid_argument if it has none of all groups.
+Interval bootstrap_of(std::size_t groups,
+                      const std::function<std::optional<double>(const std::vector<std::size_t>& drawn)>& statistic,
+                      std::uint64_t seed, unsigned rounds = bootstrap_rounds);
 
 /// Independent items: each is a group.
 template <class Item>

@@ -48,6 +48,12 @@ TEST_CASE("paper: options") {
   options = {};
   REQUIRE(parse({"recognition", "a"}, options, exit_code));
   CHECK(options.descriptors.size() == 6);
+  options = {};
+  REQUIRE(parse({"registration", "a", "--peer", "x=y", "--peer", "z=w", "--tolerance", "0.02"}, options, exit_code));
+  CHECK(options.peers == std::vector<std::string>{"x=y", "z=w"});
+  CHECK(options.tolerance_m == 0.02f);
+  CHECK(options.descriptors.front() == "cshot1344");
+  CHECK(options.descriptors.size() > 20);
 }
 
 TEST_CASE("paper: wrong options end with exit code 2") {

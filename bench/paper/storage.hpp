@@ -11,7 +11,7 @@
 #include "paper/configuration.hpp"
 #include "shortshot/shortshot.hpp"
 
-namespace shortshot_bench::tradeoff {
+namespace shortshot_bench::paper {
 
 /// Squared distances of codes are in the order of the format's own distances, and have the same ties: its whole steps,
 /// or its bits as 0 and 1. So every format can be compared by rows of floats.
@@ -24,7 +24,12 @@ struct Storage {
 };
 
 /// The codes of all rows.
-paper::Described coded(const paper::Described& described, const Storage& storage);
+Described coded(const Described& described, const Storage& storage);
+
+/// Each value's share of its row's sum, all taken as positive, and of that the square root, with the value's sign: the
+/// L2 distance of such rows is Hellinger's of the histograms. (RootSIFT: R. Arandjelovic, A. Zisserman: Three things
+/// everyone should know to improve object retrieval, CVPR 2012.) A row of zeros stays one.
+Described rooted(const Described& described);
 
 namespace storage_detail {
 
@@ -87,4 +92,4 @@ Storage packed_storage(std::string name, std::size_t code_size) {
   return {std::move(name), sizeof(Packed), code_size, pack, unpack};
 }
 
-}  // namespace shortshot_bench::tradeoff
+}  // namespace shortshot_bench::paper
