@@ -4,6 +4,7 @@
 set -eu
 cd "$(dirname -- "$0")/../.."
 output=${1:-build/docs}
+case $output in -*) echo "make.sh: unknown option: $output" >&2; exit 2 ;; esac
 
 # What kernel.hpp includes, as `cloud/cloud.hpp`, by the text alone.
 closure() {
