@@ -14568,8 +14568,8 @@ inline void look_at_all(const CloudView& cloud, Diagnosis& out) noexcept {
 template <class Search>
 class Examination {
  public:
-  Examination(const CloudView& cloud, const Search& search, const Support& support) noexcept
-      : cloud_(cloud), search_(search), support_(support) {}
+  Examination(const CloudView& cloud, const Search& neighbors, const Support& support) noexcept
+      : cloud_(cloud), search_(neighbors), support_(support) {}
 
   void look_at_some(Diagnosis& out) {
     std::size_t looked_at = 0;  // neighbors
