@@ -8764,12 +8764,7 @@ inline constexpr bool has_halves = false;
 /// `sum` and the four bytes of a.
 [[nodiscard, gnu::always_inline]] inline std::uint32_t add_bytes(std::uint32_t a, std::uint32_t sum) noexcept {
 #if defined(SHORTSHOT_HAS_HALVES)
-#if defined(__clang__)
-  using Bytes = int8x4_t;
-#else
-  using Bytes = uint8x4_t;
-#endif
-  return __usada8(static_cast<Bytes>(a), 0, sum);
+  return __usada8(static_cast<uint8x4_t>(a), 0, sum);
 #else
   for (int shift = 0; shift < 32; shift += 8) sum += a >> shift & 255u;
   return sum;

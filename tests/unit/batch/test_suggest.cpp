@@ -42,8 +42,8 @@ TEST_CASE("suggest: in any unit the same, times the unit") {
   for (const float unit : {1000.0f, 0.001f, 39.37f}) {
     const ss::Suggestion s = ss::suggest(scaled(cloud, unit).view());
     REQUIRE(s.status == Status::ok);
-    CHECK(s.radius / unit == doctest::Approx(meters.radius).epsilon(0.06));  // two digits
-    CHECK(s.spacing / unit == doctest::Approx(meters.spacing).epsilon(0.01));
+    CHECK(s.radius / unit == doctest::Approx(static_cast<double>(meters.radius)).epsilon(0.06));  // two digits
+    CHECK(s.spacing / unit == doctest::Approx(static_cast<double>(meters.spacing)).epsilon(0.01));
   }
 }
 
