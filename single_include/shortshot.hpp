@@ -14893,6 +14893,23 @@ struct CloudOptions {
 };
 
 }  // namespace SHORTSHOT_TYPES
+}  // namespace shortshot
+
+namespace shortshot::detail {
+inline namespace SHORTSHOT_CODE {
+
+/// What the options say of supports of this radius.
+[[nodiscard]] inline Support support_of(const CloudOptions& options, float radius) noexcept {
+  Support support = radius;
+  if (options.frame_radius != 0.0f) support.frame_radius = Radius(options.frame_radius);
+  support.viewpoint = options.viewpoint;
+  return support;
+}
+
+}  // namespace SHORTSHOT_CODE
+}  // namespace shortshot::detail
+
+namespace shortshot {
 inline namespace SHORTSHOT_CODE {
 
 /// Describes a whole cloud: key points by sample_centroids(), neighbors by a GridSearch, rows by an Extractor. `out`
@@ -14911,9 +14928,7 @@ template <class D>
     if (suggested.status != Status::ok) return suggested.status;
     radius = suggested.radius;
   }
-  Support support = radius;
-  if (options.frame_radius != 0.0f) support.frame_radius = Radius(options.frame_radius);
-  support.viewpoint = options.viewpoint;
+  const Support support = detail::support_of(options, radius);
   std::vector<KeyPoint> keypoints;
   Status status = validate(support.radius);
   const float leaf = options.leaf == 0.0f ? 0.5f * radius : options.leaf;

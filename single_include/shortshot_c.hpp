@@ -122,9 +122,7 @@ void write(const float* values, std::size_t row_size, const Status* status, cons
 template <class D>
 Status describe(const ss::CloudView& cloud, const std::vector<ss::KeyPoint>& keypoints, const ss::CloudOptions& options,
                 const Storage& storage, const shortshot_features& to) {
-  ss::Support support = options.radius;
-  if (options.frame_radius != 0.0f) support.frame_radius = ss::Radius(options.frame_radius);
-  support.viewpoint = options.viewpoint;
+  const ss::Support support = ss::detail::support_of(options, options.radius);
   ss::Features<D> features;
   const ss::GridSearch search(cloud, options.radius);
   Status status = ss::extract(cloud, search, keypoints, support, features, options.threads);

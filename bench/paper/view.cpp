@@ -4,26 +4,13 @@
 #include <random>
 #include <utility>
 
+#include "tools/io/averaged_cloud.hpp"
 #include "tools/io/view_of_cloud.hpp"
 
 namespace shortshot_bench::paper {
 namespace {
 
 using shortshot::KeyPoint;
-
-RgbdCloud averaged(const RgbdCloud& cloud, float voxel) {
-  std::vector<KeyPoint> means;
-  require(shortshot::sample_centroids(view_of_cloud(cloud), voxel, means));
-  RgbdCloud result;
-  for (const KeyPoint& mean : means) {
-    result.xyz.insert(result.xyz.end(), {mean.position.x, mean.position.y, mean.position.z});
-    if (cloud.has_colors()) result.rgb.insert(result.rgb.end(), {mean.color.r, mean.color.g, mean.color.b});
-  }
-  result.width = result.size();
-  result.height = 1;
-  result.viewpoint = cloud.viewpoint;
-  return result;
-}
 
 /// `count` of the key points at random; the same ones with every standard library.
 void thin_out(std::vector<KeyPoint>& keypoints, std::size_t count, std::uint32_t seed) {
@@ -50,20 +37,6 @@ std::vector<KeyPoint> keypoints_of(const shortshot::CloudView& cloud, const View
   return keypoints;
 }
 
-shortshot::Point center_of(const shortshot::CloudView& cloud) {
-  double sum[3] = {};
-  double count = 0.0;
-  for (std::size_t i = 0; i < cloud.size; ++i) {
-    const shortshot::Point p = shortshot::point(cloud, i);
-    if (!shortshot::is_finite(p)) continue;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      sum[axis] += static_cast<double>(shortshot::extend::coordinate(p, axis));
-    count += 1.0;
-  }
-  const auto mean = [&](int axis) { return static_cast<float>(sum[axis] / count); };
-  return {mean(0), mean(1), mean(2)};
-}
-
 }  // namespace
 
 View::View(RgbdCloud cloud, const ViewSettings& settings)
@@ -74,7 +47,7 @@ View::View(RgbdCloud cloud, const ViewSettings& settings)
   require(shortshot::estimate_normals(view, near, settings.normal_radius, camera_of_cloud(cloud_), normals_));
   search_ = std::make_unique<shortshot::GridSearch>(view, settings.radius);
   require(search_->status());
-  center_ = center_of(view);
+  center_ = mean_point(view);
 }
 
 Described View::describe(const Configuration& configuration) const {

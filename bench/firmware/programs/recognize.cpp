@@ -2,13 +2,12 @@
 // which must be the same everywhere, how many views are named rightly, and for the first view a line "section NAME" for
 // each counted call; see work.cpp. TASK is what the views are of.
 #include "board.hpp"
+#include "marks.hpp"
 #include "recognition.hpp"
 
 extern "C" {
 extern const unsigned char model_begin[], model_end[];
 extern const std::uint32_t views_begin[];
-[[gnu::noinline]] void mark_begin() { __asm__ volatile("" ::: "memory"); }
-[[gnu::noinline]] void mark_end() { __asm__ volatile("" ::: "memory"); }
 }
 
 namespace {
@@ -19,12 +18,7 @@ recognition::Memory memory;
 struct Count {
   template <class Call>
   void operator()(const char* name, const Call& call) const {
-    mark_begin();
-    call();
-    mark_end();
-    board::print("section ");
-    board::print(name);
-    board::print("\n");
+    count_section(name, call);
   }
 };
 

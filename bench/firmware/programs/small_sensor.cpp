@@ -6,14 +6,13 @@
 
 #include "board.hpp"
 #include "hash.hpp"
+#include "marks.hpp"
 
 using shortshot::Status;
 
 extern "C" {
 extern const unsigned char model_begin[], model_end[];
 extern const std::uint32_t views_begin[];
-[[gnu::noinline]] void mark_begin() { __asm__ volatile("" ::: "memory"); }
-[[gnu::noinline]] void mark_end() { __asm__ volatile("" ::: "memory"); }
 }
 
 namespace {
@@ -36,12 +35,7 @@ bool counted;  // the first frame
 template <class Call>
 void count(const char* name, const Call& call) {
   if (counted) return call();
-  mark_begin();
-  call();
-  mark_end();
-  board::print("section ");
-  board::print(name);
-  board::print("\n");
+  count_section(name, call);
 }
 
 std::uint32_t failures;  // of memory

@@ -2,15 +2,11 @@
 // marks at which the emulator's plugin counts instructions. Prints a line "section NAME" for each counted call, in
 // order, and lines "fact NAME NUMBER".
 #include "board.hpp"
+#include "marks.hpp"
 #include "patch.hpp"
 #include "subject.hpp"
 
 using shortshot::Status;
-
-extern "C" {
-[[gnu::noinline]] void mark_begin() { __asm__ volatile("" ::: "memory"); }
-[[gnu::noinline]] void mark_end() { __asm__ volatile("" ::: "memory"); }
-}
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/host/host_facts.hpp"
 #include "firmware/recognition/segments.hpp"
 #include "firmware/recognition/task.hpp"
 #include "tools/io/binary_file.hpp"
@@ -25,33 +26,12 @@ struct Options {
   std::vector<std::size_t> thinned;
 };
 
-void write(const std::string& path, const std::string& bytes) {
-  BinaryFile file(path);
-  file.write(bytes);
-  file.close();
-}
 template <class Number>
 std::string bytes_of(const std::vector<Number>& numbers) {
   return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
 }
 
-/// A file of facts, as the programs on boards print them.
-class HostFacts {
- public:
-  HostFacts(const std::string& target, const std::string& configuration)
-      : text_("program recognition_on_host\ntarget " + target + "\nlevel O2\nconfiguration " + configuration +
-              "\nworkspace full\n") {}
-  void add(const std::string& name, std::size_t value) { text_ += "fact " + name + " " + std::to_string(value) + "\n"; }
-  void add_hash(const std::string& configuration, std::uint32_t value) {
-    char digits[9];
-    std::snprintf(digits, sizeof digits, "%08x", static_cast<unsigned>(value));
-    text_ += "hash " + configuration + " " + digits + "\n";
-  }
-  void write_to(const std::string& path) const { write(path, text_ + "exit 0\n"); }
-
- private:
-  std::string text_;
-};
+constexpr const char* program = "recognition_on_host";
 
 /// A model of three key points of two objects, and no views: each of its bytes will be damaged.
 void make_small(const std::string& directory, RecognitionTask task) {
@@ -60,8 +40,8 @@ void make_small(const std::string& directory, RecognitionTask task) {
   task.training_keypoints = 3;
   std::vector<std::uint8_t> bytes;
   require(shortshot::save_for_flash<recognition::Stored>(train_stored(task), bytes));
-  write(directory + "/small/model.bin", bytes_of(bytes));
-  write(directory + "/small/views.bin", "");
+  write_file(directory + "/small/model.bin", bytes_of(bytes));
+  write_file(directory + "/small/views.bin", "");
 }
 
 /// The model, the views, and what this machine says of them.
@@ -70,15 +50,15 @@ void make(const std::string& directory, const std::string& name, const Recogniti
   std::vector<std::uint8_t> bytes;
   require(shortshot::save_for_flash<recognition::Stored>(recognizer, bytes));
   const std::vector<std::uint32_t> views = views_of(task, recognizer);
-  write(directory + "/model.bin", bytes_of(bytes));
-  write(directory + "/views.bin", bytes_of(views));
+  write_file(directory + "/model.bin", bytes_of(bytes));
+  write_file(directory + "/views.bin", bytes_of(views));
 
   shortshot::ModelView<recognition::Stored> model;
   require(model.open(bytes.data(), bytes.size()));
   const auto memory = std::make_unique<recognition::Memory>();
   const auto outcome =
       recognition::Task(model, *memory).name_all(views.data(), [](const char*, const auto& call) { call(); });
-  HostFacts facts("host", name);
+  HostFacts facts(program, "host", name);
   facts.add_hash(name, outcome.hypotheses.value());
   facts.add("objects", recognizer.instance_count());
   facts.add("codewords", recognizer.codeword_count());
@@ -87,7 +67,7 @@ void make(const std::string& directory, const std::string& name, const Recogniti
   facts.add("right", outcome.right);
   facts.write_to(directory + "/host.txt");
 
-  HostFacts floats("host_cshot1344_floats", name);
+  HostFacts floats(program, "host_cshot1344_floats", name);
   floats.add("objects", recognizer.instance_count());
   floats.add("codewords", recognizer.codeword_count());
   floats.add("views", task.test.size());
@@ -97,7 +77,7 @@ void make(const std::string& directory, const std::string& name, const Recogniti
 
 void write_left_out(const std::string& path, const std::string& target, std::size_t views, const LeftOut& result,
                     std::size_t right_with_floats) {
-  HostFacts facts(target, "SegmentsLeftOut");
+  HostFacts facts(program, target, "SegmentsLeftOut");
   facts.add("views", views);
   facts.add("codewords", result.codewords);
   facts.add("model_bytes", result.model_bytes);

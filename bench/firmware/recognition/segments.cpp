@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "tools/io/averaged_cloud.hpp"
 #include "tools/io/input_error.hpp"
 #include "tools/io/require_ok.hpp"
 #include "tools/io/view_of_cloud.hpp"
@@ -17,27 +18,6 @@ namespace ss = shortshot;
 constexpr float voxel = 0.004f;
 
 RecognitionTask empty_task() { return {{}, {}, 0.04f, 0.015f, 33}; }
-
-/// One point in each voxel, and their center.
-LabeledView averaged(const RgbdCloud& cloud) {
-  std::vector<ss::KeyPoint> means;
-  require(ss::sample_centroids(view_of_cloud(cloud), voxel, means));
-  LabeledView view;
-  double sum[3] = {};
-  for (const ss::KeyPoint& mean : means) {
-    const ss::Point& p = mean.position;
-    view.cloud.xyz.insert(view.cloud.xyz.end(), {p.x, p.y, p.z});
-    view.cloud.rgb.insert(view.cloud.rgb.end(), {mean.color.r, mean.color.g, mean.color.b});
-    sum[0] += static_cast<double>(p.x);
-    sum[1] += static_cast<double>(p.y);
-    sum[2] += static_cast<double>(p.z);
-  }
-  view.cloud.width = means.size();
-  view.cloud.height = 1;
-  const auto mean = [&](int axis) { return static_cast<float>(sum[axis] / static_cast<double>(means.size())); };
-  view.center = {mean(0), mean(1), mean(2)};
-  return view;
-}
 
 std::set<std::string> scenes_of(const std::vector<Segment>& segments) {
   std::set<std::string> scenes;
@@ -132,10 +112,10 @@ std::vector<Segment> read_segments(const std::string& folder) {
     if (set.split != datasets::Split::leave_one_sequence_out) continue;
     std::vector<Segment> segments;
     for (std::size_t i = 0; i < set.views.size(); ++i) {
-      Segment segment{averaged(set.load(i)), set.views[i].sequence};
-      segment.view.object_class = set.views[i].object_class;
-      segment.view.instance = set.views[i].instance;
-      segments.push_back(std::move(segment));
+      const datasets::LabeledView& label = set.views[i];
+      const RgbdCloud cloud = averaged(set.load(i), voxel);
+      const ss::Point center = mean_point(view_of_cloud(cloud));
+      segments.push_back({{cloud, center, label.object_class, label.instance}, label.sequence});
     }
     return segments;
   }

@@ -31,12 +31,6 @@ auto parse_file(const std::string& path, const Parse& parse) {
   }
 }
 
-void write(const std::string& path, const std::string& text) {
-  BinaryFile file(path);
-  file.write(text);
-  file.close();
-}
-
 /// The hashes of this machine's own build, which ./run bits compares with those of other compilers.
 Hashes reference(const std::vector<Hash>& hashes) {
   Hashes found;
@@ -56,7 +50,7 @@ struct Options {
 int report(const Options& options) {
   const std::vector<Facts> images = read_all(options.list);
   const Measured measured = measure(images);
-  if (options.update_hashes) write(options.hashes, to_json(reference(measured.hashes)));
+  if (options.update_hashes) write_file(options.hashes, to_json(reference(measured.hashes)));
 
   const Hashes committed = parse_file(options.hashes, parse_hashes);
   std::vector<std::string> broken = broken_images(images, committed);
@@ -68,7 +62,7 @@ int report(const Options& options) {
   add(broken_budgets(budgets, measured.rows));
 
   std::printf("%s\n", tables(measured).c_str());
-  if (!options.json.empty()) write(options.json, to_json(measured, budgets, broken));
+  if (!options.json.empty()) write_file(options.json, to_json(measured, budgets, broken));
   for (const std::string& line : missed_goals(budgets, measured.rows)) std::printf("goal missed: %s\n", line.c_str());
   std::fflush(stdout);
   for (const std::string& line : broken) std::fprintf(stderr, "BROKEN: %s\n", line.c_str());

@@ -3,36 +3,29 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "firmware/host/host_facts.hpp"
 #include "firmware/small_sensor/task.hpp"
 #include "tools/io/binary_file.hpp"
+#include "tools/io/require_ok.hpp"
 
 namespace {
 
 using namespace shortshot_bench;
 using namespace shortshot_bench::firmware;
 
-void write(const std::string& path, const std::string& bytes) {
-  BinaryFile file(path);
-  file.write(bytes);
-  file.close();
-}
-
 void make(const small_sensor::Sensor& sensor, const std::string& directory) {
   const SensorTask task = sensor_task(sensor);
   std::vector<std::uint8_t> model;
-  if (shortshot::save_for_flash<small_sensor::Stored>(train_stored(task), model) != shortshot::Status::ok) {
-    throw std::runtime_error("the model cannot be saved");
-  }
-  write(directory + "/model.bin", std::string(model.begin(), model.end()));
-  write(directory + "/views.bin", frames_of(task));
-  write(directory + "/host.txt",
-        std::string("program small_sensor_on_host\ntarget host_shot352_floats\nlevel O2\nconfiguration ") +
-            sensor.name + "\nworkspace full\nfact views " + std::to_string(task.test.size()) + "\nfact right " +
-            std::to_string(right_with_shot(task)) + "\n");
+  require(shortshot::save_for_flash<small_sensor::Stored>(train_stored(task), model));
+  write_file(directory + "/model.bin", std::string(model.begin(), model.end()));
+  write_file(directory + "/views.bin", frames_of(task));
+  HostFacts floats("small_sensor_on_host", "host_shot352_floats", sensor.name);
+  floats.add("views", task.test.size());
+  floats.add("right", right_with_shot(task));
+  floats.write_to(directory + "/host.txt");
 }
 
 }  // namespace

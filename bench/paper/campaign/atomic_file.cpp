@@ -16,9 +16,7 @@ void make_directory(const std::string& directory) {
 
 void write_atomically(const std::string& path, std::string_view bytes) {
   const std::string unfinished = path + ".tmp";
-  BinaryFile file(unfinished);
-  file.write(bytes);
-  file.close();
+  write_file(unfinished, bytes);
   std::error_code error;
   std::filesystem::rename(unfinished, path, error);
   if (error) throw InputError::about(path, "cannot write the file: " + error.message());

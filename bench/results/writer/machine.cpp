@@ -44,9 +44,7 @@ void write_machine(const std::string& path, const Machine& machine) {
                                        {"system", machine.system},
                                        {"compiler", machine.compiler},
                                        {"flags", machine.flags}};
-  BinaryFile file(path);
-  file.write(json.dump(1) + "\n");
-  file.close();
+  write_file(path, json.dump(1) + "\n");
 }
 
 Machine read_machine(const std::string& path) {

@@ -13,12 +13,6 @@ namespace {
 
 using namespace shortshot_bench;
 
-void write(const std::string& path, const std::string& text) {
-  BinaryFile file(path);
-  file.write(text);
-  file.close();
-}
-
 /// Writes the documents that differ from what the measurements make; with `check` only says so: 1 if there are any.
 int update(const std::string& root, bool check) {
   int stale = 0;
@@ -28,7 +22,7 @@ int update(const std::string& root, bool check) {
         "%s: %s\n", document.path.c_str(),
         fresh ? "shows the measurements" : (check ? "does NOT show the measurements: ./run results" : "written"));
     if (!fresh && check) stale = 1;
-    if (!fresh && !check) write(document.path, document.generated);
+    if (!fresh && !check) write_file(document.path, document.generated);
   }
   return stale;
 }

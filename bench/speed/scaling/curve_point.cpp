@@ -21,9 +21,7 @@ void write_curves(const std::string& path, const std::vector<CurvePoint>& points
                     {"extra_bytes", static_cast<std::uint64_t>(p.extra_bytes)},
                     {"repetitions", p.repetitions}});
   }
-  BinaryFile file(path);
-  file.write(list.dump(1) + "\n");
-  file.close();
+  write_file(path, list.dump(1) + "\n");
 }
 
 std::vector<CurvePoint> read_curves(const std::string& path) {

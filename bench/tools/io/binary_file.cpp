@@ -52,4 +52,10 @@ void BinaryFile::check(bool succeeded) const {
   throw InputError::at_byte(path_, written_bytes_, "cannot write the file: " + reason);
 }
 
+void write_file(const std::string& path, std::string_view bytes) {
+  BinaryFile file(path);
+  file.write(bytes);
+  file.close();
+}
+
 }  // namespace shortshot_bench

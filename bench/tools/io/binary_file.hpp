@@ -26,4 +26,7 @@ class BinaryFile {
   std::uint64_t written_bytes_ = 0;
 };
 
+/// A file of these bytes, in place of whatever was there. Throws InputError.
+void write_file(const std::string& path, std::string_view bytes);
+
 }  // namespace shortshot_bench

@@ -7,6 +7,7 @@
 
 #include "tools/io/require_ok.hpp"
 #include "tools/io/view_of_cloud.hpp"
+#include "tools/match/described.hpp"
 
 namespace shortshot_bench {
 namespace {
@@ -32,23 +33,10 @@ void choose_lengths(const RgbdCloud& a, const RgbdCloud& b, const MatchOptions& 
   out.reach = out.leaf;
 }
 
-/// The rows that have a descriptor, alone.
-template <class D>
-shortshot::Features<D> described(const RgbdCloud& cloud, const MatchOptions& options, const MatchResult& lengths) {
-  shortshot::CloudOptions how;
-  how.radius = lengths.radius;
-  how.leaf = lengths.leaf;
-  how.viewpoint = camera_of_cloud(cloud);
-  how.threads = options.threads;
-  shortshot::Features<D> features;
-  require(describe_cloud(view_of_cloud(cloud), how, features));
-  return features;
-}
-
 template <class D>
 void find_pairs(const RgbdCloud& a, const RgbdCloud& b, const MatchOptions& options, MatchResult& out) {
-  const shortshot::Features<D> of_a = described<D>(a, options, out);
-  const shortshot::Features<D> of_b = described<D>(b, options, out);
+  const shortshot::Features<D> of_a = described<D>(a, out.radius, out.leaf, options.threads);
+  const shortshot::Features<D> of_b = described<D>(b, out.radius, out.leaf, options.threads);
   std::vector<std::uint32_t> place_in[2];  // of each row among those that were described
   std::vector<Point>* const points[2] = {&out.a, &out.b};
   const shortshot::Features<D>* const features[2] = {&of_a, &of_b};
@@ -133,9 +121,14 @@ MatchResult match_clouds(const RgbdCloud& a, const RgbdCloud& b, const MatchOpti
   return out;
 }
 
-double degrees_of(const shortshot::Pose& pose) {
-  const double trace = static_cast<double>(pose.rotation[0] + pose.rotation[4] + pose.rotation[8]);
+double degrees_between(const shortshot::Pose& a, const shortshot::Pose& b) {
+  double trace = 0.0;  // of the one times the other's inverse
+  for (std::size_t k = 0; k < 9; ++k) trace += static_cast<double>(a.rotation[k] * b.rotation[k]);
   return std::acos(std::min(1.0, std::max(-1.0, 0.5 * (trace - 1.0)))) * 57.29577951308232;
+}
+
+double degrees_of(const shortshot::Pose& pose) {
+  return degrees_between(pose, {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}});
 }
 
 RgbdCloud moved(const RgbdCloud& cloud, const shortshot::Pose& pose) {

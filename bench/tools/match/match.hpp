@@ -48,6 +48,8 @@ RefineOptions refine_options_of(const MatchResult& result);
 
 /// The angle of a pose's rotation.
 double degrees_of(const shortshot::Pose& pose);
+/// The angle between the rotations of both.
+double degrees_between(const shortshot::Pose& a, const shortshot::Pose& b);
 
 /// The same points, moved; colors stay.
 RgbdCloud moved(const RgbdCloud& cloud, const shortshot::Pose& pose);

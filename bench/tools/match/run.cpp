@@ -29,9 +29,7 @@ void write_files(const MatchCommand& command, const NamedCloud& a, const NamedCl
     return;
   }
   draw_moved(a, b, result, command.width).write_png(moved_picture);
-  BinaryFile file(pose);
-  file.write(pose_text(result.pose));
-  file.close();
+  write_file(pose, pose_text(result.pose));
   std::printf("written: %s, %s\n", moved_picture.c_str(), pose.c_str());
 }
 

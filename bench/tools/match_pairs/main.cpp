@@ -48,13 +48,11 @@ shortshot::Pose pose_of(const datasets::RigidMotion& motion) {
 /// How far the key points of b are from where the truth has them, on the mean; and the angle between both rotations.
 Errors errors_of(const MatchResult& result, const shortshot::Pose& truth) {
   double meters = 0.0;
-  double trace = 0.0;
   for (const shortshot::Point& p : result.b) {
     const float d2 = shortshot::squared_distance(transform_point(result.pose, p), transform_point(truth, p));
     meters += std::sqrt(static_cast<double>(d2)) / static_cast<double>(result.b.size());
   }
-  for (std::size_t k = 0; k < 9; ++k) trace += static_cast<double>(truth.rotation[k] * result.pose.rotation[k]);
-  return {std::acos(std::min(1.0, std::max(-1.0, 0.5 * (trace - 1.0)))) * 57.29577951308232, meters};
+  return {degrees_between(truth, result.pose), meters};
 }
 
 void try_pair(const std::vector<datasets::PairSet>& sets, const PairToTry& pair, const Options& options, Tally& tally,

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include "tools/io/averaged_cloud.hpp"
 #include "tools/io/require_ok.hpp"
 #include "tools/io/view_of_cloud.hpp"
 #include "tools/match/chance.hpp"
+#include "tools/match/described.hpp"
 
 namespace shortshot_bench {
 namespace {
@@ -16,21 +18,6 @@ using shortshot::Status;
 using ObjectFeatures = shortshot::Features<ObjectDescriptor>;
 
 constexpr float bandwidth_of_radius = 0.75f;
-
-Point mean_of(const shortshot::CloudView& cloud) {
-  double sum[3] = {};
-  double count = 0.0;
-  for (std::size_t i = 0; i < cloud.size; ++i) {
-    const Point p = shortshot::point(cloud, i);
-    if (!shortshot::is_finite(p)) continue;
-    sum[0] += static_cast<double>(p.x);
-    sum[1] += static_cast<double>(p.y);
-    sum[2] += static_cast<double>(p.z);
-    count += 1.0;
-  }
-  const auto mean = [&](double of) { return static_cast<float>(of / std::max(1.0, count)); };
-  return {mean(sum[0]), mean(sum[1]), mean(sum[2])};
-}
 
 /// Votes as recognize() counts them, each with its row.
 class Votes {
@@ -128,19 +115,12 @@ float suggested_radius(const RgbdCloud& cloud) {
 }
 
 ObjectFeatures describe_object(const RgbdCloud& cloud, float radius, unsigned threads) {
-  shortshot::CloudOptions how;
-  how.radius = radius;
-  how.leaf = 0.25f * radius;
-  how.viewpoint = camera_of_cloud(cloud);
-  how.threads = threads;
-  ObjectFeatures features;
-  require(describe_cloud(view_of_cloud(cloud), how, features));
-  return features;
+  return described<ObjectDescriptor>(cloud, radius, 0.25f * radius, threads);
 }
 
 void learn(shortshot::Recognizer& recognizer, const RgbdCloud& cloud, const std::string& name, unsigned threads) {
   const ObjectFeatures features = describe_object(cloud, radius_of(recognizer), threads);
-  require(train(recognizer, features, mean_of(view_of_cloud(cloud)), name, name));
+  require(train(recognizer, features, mean_point(view_of_cloud(cloud)), name, name));
 }
 
 std::vector<Recognized> recognize_objects(const shortshot::Recognizer& recognizer, const ObjectFeatures& features,
