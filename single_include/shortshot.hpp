@@ -83,6 +83,32 @@
 #undef OUT
 #pragma push_macro("I")
 #undef I
+#pragma push_macro("C")
+#undef C
+#pragma push_macro("D")
+#undef D
+#pragma push_macro("G")
+#undef G
+#pragma push_macro("K")
+#undef K
+#pragma push_macro("L")
+#undef L
+#pragma push_macro("N")
+#undef N
+#pragma push_macro("P")
+#undef P
+#pragma push_macro("R")
+#undef R
+#pragma push_macro("S")
+#undef S
+#pragma push_macro("T")
+#undef T
+#pragma push_macro("X")
+#undef X
+#pragma push_macro("Y")
+#undef Y
+#pragma push_macro("Z")
+#undef Z
 
 // shortshot/dispatch/hot_kernel.hpp: the part of the kernel in which hosts spend their time: what kernel_for_avx2.hpp
 // reads once more. All of it has include guards, which can be forgotten (forget_kernel.hpp).
@@ -19479,4 +19505,17 @@ CloudView view_eigen(const Arguments&...) noexcept {
 #pragma pop_macro("IN")
 #pragma pop_macro("OUT")
 #pragma pop_macro("I")
+#pragma pop_macro("C")
+#pragma pop_macro("D")
+#pragma pop_macro("G")
+#pragma pop_macro("K")
+#pragma pop_macro("L")
+#pragma pop_macro("N")
+#pragma pop_macro("P")
+#pragma pop_macro("R")
+#pragma pop_macro("S")
+#pragma pop_macro("T")
+#pragma pop_macro("X")
+#pragma pop_macro("Y")
+#pragma pop_macro("Z")
 // clang-format on

@@ -23,6 +23,7 @@ if [ "$1" = --image ]; then
 fi
 object=$1
 report=
+[ -r "$object" ] || { echo "there is no $object"; exit 2; }
 
 # broken PROMISE WHAT...: nothing if there is no WHAT.
 broken() {

@@ -10,7 +10,9 @@ set(include_order "${here}/check_include_order.sh")
 build_test(include_order "${include_order}" "${PROJECT_SOURCE_DIR}/include")
 build_test(include_order.can_fail "${include_order}" --control "${PROJECT_SOURCE_DIR}/include" "${there}/include_order")
 build_test(readme "${CMAKE_COMMAND}" "-DDOCUMENT=${PROJECT_SOURCE_DIR}/README.md"
-  -DEXAMPLES=quick_start,parents,firmware,recognition "-DOUTPUT_DIR=${there}/readme" -P "${here}/extract_examples.cmake")
+  -DEXAMPLES=quick_start,robotics,ros2,firmware "-DOUTPUT_DIR=${there}/readme" -P "${here}/extract_examples.cmake")
+build_test(links "${here}/check_links.py" "${PROJECT_SOURCE_DIR}")
+build_test(links.can_fail "${here}/check_links.py" --control "${there}/links")
 build_test(run_script "${here}/test_run.sh" "${PROJECT_SOURCE_DIR}/run" "${there}/run_script")
 build_test(fuzz_script "${here}/test_fuzz.sh" "${PROJECT_SOURCE_DIR}/tests/fuzz/fuzz.sh" "${there}/fuzz_script")
 
@@ -28,18 +30,31 @@ build_test(readme.firmware.symbols "${check_symbols}" "${there}/readme/firmware.
 build_test(readme.firmware.links "${CMAKE_CXX_COMPILER}" -std=c++17 "${here}/firmware_main.cpp" "${there}/readme/firmware.o"
   -no-pie -o "${there}/readme/firmware")
 build_test(readme.firmware.runs "${there}/readme/firmware")
-build_test(readme.parents "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" -fsyntax-only
-  "${there}/readme/parents.cpp")
-build_test(readme.recognition "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" -O2
-  -c "${there}/readme/recognition.cpp" -o "${there}/readme/recognition.o")
-depends(readme.parents readme)
-depends(readme.recognition readme)
+# As for ROS, with a stand-in for its message; and a pose between two of them.
+build_test(readme.robotics "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" "-I${here}/ros" -O2
+  "${there}/readme/ros2.cpp" "${there}/readme/robotics.cpp" "${here}/robotics_main.cpp" -o "${there}/readme/robotics")
+build_test(readme.robotics.runs "${there}/readme/robotics")
+depends(readme.robotics readme)
+depends(readme.robotics.runs readme.robotics)
 depends(readme.quick_start readme)
 depends(readme.quick_start.runs readme.quick_start)
 depends(readme.firmware readme)
 depends(readme.firmware.symbols readme.firmware)
 depends(readme.firmware.links readme.firmware)
 depends(readme.firmware.runs readme.firmware.links)
+
+# ---- Pages beside the code ------------------------------------------------------------------------------------------
+
+foreach(page IN ITEMS descriptor:parents recognition:recognition)
+  string(REPLACE ":" ";" page "${page}")
+  list(GET page 0 folder)
+  list(GET page 1 example)
+  build_test(page.${folder} "${CMAKE_COMMAND}" "-DDOCUMENT=${PROJECT_SOURCE_DIR}/include/shortshot/${folder}/README.md"
+    "-DEXAMPLES=${example}" "-DOUTPUT_DIR=${there}/page_${folder}" -P "${here}/extract_examples.cmake")
+  build_test(page.${folder}.${example} "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" -O2
+    -c "${there}/page_${folder}/${example}.cpp" -o "${there}/page_${folder}/${example}.o")
+  depends(page.${folder}.${example} page.${folder})
+endforeach()
 
 # ---- The map: how to add a signal, a voting rule, ... ----------------------------------------------------------------
 

@@ -1,8 +1,8 @@
 # Takes the examples out of a document, so that what it shows is what the tests compile:
 #   cmake -DDOCUMENT=... -DEXAMPLES=NAME,... -DOUTPUT_DIR=... -P extract_examples.cmake
-# An example is a ```cpp, ```cmake, ```c or ```python block after a line <!-- example: NAME -->. It becomes
+# An example is a ```cpp, ```cmake, ```c, ```python or ```diff block after a line <!-- example: NAME -->. It becomes
 # OUTPUT_DIR/NAME.cpp, which includes the single header, and OUTPUT_DIR/NAME_cmake.cpp, which includes what the CMake
-# targets offer; or OUTPUT_DIR/NAME.cmake, NAME.c, NAME.python.
+# targets offer; or OUTPUT_DIR/NAME.cmake, NAME.c, NAME.python; of a diff, NAME.before and NAME.after.
 cmake_minimum_required(VERSION 3.22)
 
 set(most_lines 15)  # of code in the quick start: neither blank nor only a comment
@@ -21,8 +21,8 @@ function(extract name result)
     message(FATAL_ERROR "${title} has no line ${marker}")
   endif()
   string(SUBSTRING "${document}" ${begin} -1 rest)
-  if(NOT rest MATCHES "^<!-- [a-z_: ]+ -->[ \n]*```(cpp|cmake|c|python)\n")
-    message(FATAL_ERROR "${title}: no block ```cpp, ```cmake, ```c or ```python follows ${marker}")
+  if(NOT rest MATCHES "^<!-- [a-z0-9_: ]+ -->[ \n]*```(cpp|cmake|c|python|diff)\n")
+    message(FATAL_ERROR "${title}: no block ```cpp, ```cmake, ```c, ```python or ```diff follows ${marker}")
   endif()
   set(language ${CMAKE_MATCH_1})
   string(LENGTH "${CMAKE_MATCH_0}" begin)
@@ -37,6 +37,13 @@ function(extract name result)
   if(language STREQUAL "cpp")
     string(REPLACE "\"shortshot.hpp\"" "<shortshot/shortshot.hpp>" for_cmake "${example}")
     file(WRITE "${OUTPUT_DIR}/${name}_cmake.cpp" "${for_cmake}")
+  elseif(language STREQUAL "diff")
+    string(REGEX REPLACE "(^|\n)\\+[^\n]*" "" before "${example}")
+    string(REGEX REPLACE "(^|\n)-[^\n]*" "" after "${example}")
+    string(REGEX REPLACE "(^|\n)[-+ ]" "\\1" before "${before}")
+    string(REGEX REPLACE "(^|\n)[-+ ]" "\\1" after "${after}")
+    file(WRITE "${OUTPUT_DIR}/${name}.before" "${before}")
+    file(WRITE "${OUTPUT_DIR}/${name}.after" "${after}")
   endif()
   set(${result} "${example}" PARENT_SCOPE)
 endfunction()

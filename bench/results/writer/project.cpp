@@ -42,10 +42,11 @@ std::vector<Document> generate(const std::string& root) {
   const std::string instructions = root + "/bench/speed/instructions/expected.json";
   const Machine machine = read_machine(machine_path(root));
   const std::vector<JsonRow> peers = scaling::read_rows(results + "peers.json");
+  const std::vector<JsonRow> registration = scaling::read_rows(results + "registration.json");
   const nlohmann::ordered_json firmware = scaling::read_json(results + "firmware.json");
 
   Document readme = read_document(root + "/README.md");
-  generate_block(readme, "headline", headline(results + "peers.json", peers, machine));
+  generate_block(readme, "headline", headline(results + "peers.json", peers, registration, machine));
 
   const std::string firmware_path = results + "firmware.json";
   generate_block(readme, "firmware",
@@ -53,7 +54,6 @@ std::vector<Document> generate(const std::string& root) {
 
   const std::string tradeoff_path = results + "tradeoff.json";
   const nlohmann::ordered_json tradeoff = scaling::read_json(tradeoff_path);
-  generate_block(readme, "tradeoff", made_of(tradeoff_path, [&] { return tradeoff_headline(tradeoff); }));
   Document map = read_document(root + "/bench/TRADEOFF.md");
   generate_block(map, "tradeoff", made_of(tradeoff_path, [&] { return tradeoff_tables(tradeoff, "results"); }));
 

@@ -14,9 +14,13 @@ namespace shortshot_bench::results {
 using scaling::CurvePoint;
 using scaling::JsonRow;
 
-/// The README's few rows: whole frames of one cloud, plain -O2 and -mavx2 next to each other, beside the peers that
-/// matter most.
-std::string headline(const std::string& peers_path, const std::vector<JsonRow>& peers, const Machine& machine);
+/// The README's table: quality by the registration experiment (`registration` is what registration.jq made), cost by
+/// ./run peers on its first cloud, plain -O2; ours, PCL's and, where it was measured, Open3D's.
+std::string headline(const std::string& peers_path, const std::vector<JsonRow>& peers,
+                     const std::vector<JsonRow>& registration, const Machine& machine);
+
+/// "NAME: 170909 points, 1000 key points of voxels of 0.01 m, R = 0.04 m, 831 neighbors per key point".
+std::string cloud_line(const JsonRow& row);
 
 std::string machine_lines(const Machine& machine);
 std::string goals_table(const std::vector<JsonRow>& goals);
@@ -33,9 +37,7 @@ std::string instructions_table(const std::string& path, const nlohmann::ordered_
 std::string firmware_headline(const std::string& path, const nlohmann::ordered_json& json);
 std::string firmware_tables(const nlohmann::ordered_json& json);
 
-/// `json` is what ./run tradeoff --record wrote: the README's table, and the page's tables with the plots, which lie in
-/// the folder `plots`.
-std::string tradeoff_headline(const nlohmann::ordered_json& json);
+/// `json` is what ./run tradeoff --record wrote: the page's plots, which lie in the folder `plots`, and its tables.
 std::string tradeoff_tables(const nlohmann::ordered_json& json, const std::string& plots);
 
 /// For each curve a table and its plot, which lies in the folder `plots`.

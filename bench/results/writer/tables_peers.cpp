@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <stdexcept>
 
 #include "results/writer/markdown.hpp"
 #include "results/writer/tables.hpp"
@@ -38,17 +37,9 @@ std::string both(const Pair& pair, const char* key, const Format& format) {
   return (pair.o2 ? format(pair.o2->number(key)) : "-") + " / " + (pair.avx2 ? format(pair.avx2->number(key)) : "-");
 }
 
-/// "NAME: 170909 points, 1000 key points of voxels of 0.01 m, R = 0.04 m, 831 neighbors per key point".
-std::string cloud_line(const JsonRow& row) {
-  char lengths[64];
-  std::snprintf(lengths, sizeof lengths, "%g m, R = %g m", row.number("leaf"), row.number("radius"));
-  return row.text("cloud") + ": " + whole(row.number("points")) + " points, " + whole(row.number("keypoints")) +
-         " key points of voxels of " + lengths + ", " + whole(row.number("mean_neighbors")) +
-         " neighbors per key point";
-}
-
-const std::vector<std::string> columns{"whole frame, ms", "peer's, ms",   "times faster",        "us per key point",
-                                       "peer's, us",      "times faster", "extra memory, peer's"};
+const std::vector<std::string> columns{
+    "ours",         "against",          "our search", "whole frame, ms", "peer's, ms",
+    "times faster", "us per key point", "peer's, us", "times faster",    "extra memory, peer's"};
 
 std::vector<std::string> cells(const Pair& pair, std::vector<std::string> first) {
   const JsonRow& any = pair.o2 ? *pair.o2 : *pair.avx2;
@@ -64,13 +55,8 @@ std::vector<std::string> cells(const Pair& pair, std::vector<std::string> first)
   return first;
 }
 
-std::vector<std::string> header_of(std::vector<std::string> first) {
-  first.insert(first.end(), columns.begin(), columns.end());
-  return first;
-}
-
 std::string peers_of_cloud(const std::vector<JsonRow>& peers, const std::string& cloud) {
-  Table table(header_of({"ours", "against", "our search"}));
+  Table table(columns);
   std::vector<Key> seen;
   std::string text;
   for (const JsonRow& row : peers) {
@@ -87,46 +73,12 @@ std::string peers_of_cloud(const std::vector<JsonRow>& peers, const std::string&
 
 }  // namespace
 
-namespace {
-
-/// What the headline shows. What not every machine has is left out there.
-struct Shown {
-  const char* descriptor;
-  const char* search;
-  const char* peer;
-  bool everywhere = true;
-};
-
-constexpr Shown shown[] = {{"SCSH-336", "grid", "PCL SHOTColor"},
-                           {"SCSH-336", "grid", "PCL SHOTColor, fast normals", false},
-                           {"SCSH-336", "grid", "Open3D FPFH, as many points", false},
-                           {"SCSH-336", "grid", "naive double"},
-                           {"SSH-32", "grid", "PCL SHOT"},
-                           {"SSH-32", "grid", "Open3D FPFH, as many points", false},
-                           {"SHOT-352", "grid", "PCL SHOT"},
-                           {"SHOT-352", "grid", "PCL SHOT, fast normals", false},
-                           {"SHOT-352, fast normals", "grid", "PCL SHOT, fast normals", false},
-                           {"CSHOT-1344", "grid", "PCL SHOTColor"},
-                           {"key points", "voxels", "PCL VoxelGrid"},
-                           {"key points", "voxels", "Open3D voxel_down_sample", false}};
-
-}  // namespace
-
-std::string headline(const std::string& peers_path, const std::vector<JsonRow>& peers, const Machine& machine) {
-  const JsonRow& first = peers.front();
-  Table table(header_of({"from raw points, one thread; ours: baseline binary / -mavx2"}));
-  for (const Shown& row : shown) {
-    const Key key{first.text("cloud"), row.descriptor, row.peer, row.search};
-    const Pair pair{find(peers, key, "O2"), find(peers, key, "avx2")};
-    if (!pair.o2 && !row.everywhere) continue;
-    if (!pair.o2 || !pair.avx2) {
-      throw std::runtime_error(peers_path + ": no comparison of " + row.descriptor + " by " + row.search + " with " +
-                               row.peer + " on " + key[0] + (pair.o2 ? " for avx2" : " for O2"));
-    }
-    table.add(cells(pair, {std::string(row.descriptor) + " beside " + row.peer}));
-  }
-  return "\n" + table.markdown() + "\n" + cloud_line(first) + "; " + machine.cpu + ", " + machine.compiler +
-         ". All tables, command lines and scaling curves: [bench/RESULTS.md](bench/RESULTS.md).\n\n";
+std::string cloud_line(const JsonRow& row) {
+  char lengths[64];
+  std::snprintf(lengths, sizeof lengths, "%g m, R = %g m", row.number("leaf"), row.number("radius"));
+  return row.text("cloud") + ": " + whole(row.number("points")) + " points, " + whole(row.number("keypoints")) +
+         " key points of voxels of " + lengths + ", " + whole(row.number("mean_neighbors")) +
+         " neighbors per key point";
 }
 
 std::string peers_table(const std::vector<JsonRow>& peers) {

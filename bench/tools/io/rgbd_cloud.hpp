@@ -17,6 +17,7 @@ struct RgbdCloud {
   std::size_t width = 0;                    // points in a row, or all points of an unorganized cloud
   std::size_t height = 0;                   // rows; above 1 = organized like the camera image, row by row
   std::array<float, 3> viewpoint{0, 0, 0};  // the camera's position, meters, from the origin
+  bool is_whole = false;  // shows an object from all sides, as no camera sees it: the viewpoint means nothing
   std::array<double, 3> origin{0, 0, 0};  // what a reader subtracted where floats are too coarse for the file's numbers
   std::vector<std::string> notes;         // one sentence each, for people: what was read how, and what was not used
 

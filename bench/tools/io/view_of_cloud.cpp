@@ -1,8 +1,33 @@
 #include "view_of_cloud.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "shortshot/cloud/read.hpp"
 
 namespace shortshot_bench {
+namespace {
+
+/// Of the points that are finite.
+struct Extent {
+  float low[3], high[3];
+};
+
+Extent extent_of(const RgbdCloud& cloud) {
+  constexpr float most = std::numeric_limits<float>::max();
+  Extent extent{{most, most, most}, {-most, -most, -most}};
+  const shortshot::CloudView view = view_of_cloud(cloud);
+  for (std::size_t i = 0; i < view.size; ++i) {
+    if (!shortshot::is_finite(shortshot::point(view, i))) continue;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      extent.low[axis] = std::min(extent.low[axis], cloud.xyz[3 * i + axis]);
+      extent.high[axis] = std::max(extent.high[axis], cloud.xyz[3 * i + axis]);
+    }
+  }
+  return extent;
+}
+
+}  // namespace
 
 shortshot::CloudView view_of_cloud(const RgbdCloud& cloud) {
   shortshot::CloudView view = cloud.has_colors()
@@ -13,7 +38,20 @@ shortshot::CloudView view_of_cloud(const RgbdCloud& cloud) {
 }
 
 shortshot::Viewpoint camera_of_cloud(const RgbdCloud& cloud) {
-  return shortshot::Viewpoint::towards({cloud.viewpoint[0], cloud.viewpoint[1], cloud.viewpoint[2]});
+  const auto& camera = cloud.viewpoint;
+  if (!cloud.is_whole) return shortshot::Viewpoint::towards({camera[0], camera[1], camera[2]});
+  const Extent extent = extent_of(cloud);
+  const auto middle = [&](int axis) { return 0.5f * extent.low[axis] + 0.5f * extent.high[axis]; };
+  return shortshot::Viewpoint::away_from({middle(0), middle(1), middle(2)});
+}
+
+bool surrounds_its_viewpoint(const RgbdCloud& cloud) {
+  const Extent extent = extent_of(cloud);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const float at = cloud.viewpoint[axis];
+    if (!(extent.low[axis] < at && at < extent.high[axis])) return false;
+  }
+  return true;
 }
 
 std::size_t valid_points_of(const RgbdCloud& cloud) {

@@ -12,8 +12,12 @@ namespace shortshot_bench {
 /// Borrows the cloud, whose rows and columns it keeps.
 shortshot::CloudView view_of_cloud(const RgbdCloud& cloud);
 
-/// Where the camera was.
+/// Towards the camera; of a whole object, away from the middle of its extent. Frames turned so are the same in a view
+/// of an object and in the whole of it.
 shortshot::Viewpoint camera_of_cloud(const RgbdCloud& cloud);
+
+/// Whether the viewpoint lies within the cloud's extent: it is a room's, or the cloud is a whole object.
+bool surrounds_its_viewpoint(const RgbdCloud& cloud);
 
 /// Points that are finite.
 std::size_t valid_points_of(const RgbdCloud& cloud);

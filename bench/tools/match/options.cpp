@@ -13,6 +13,9 @@ bool parse_match_options(int argc, const char* const* argv, MatchCommand& comman
       "input.");
   app.name("match");
   app.add_option("clouds", command.clouds, "A and B: PCD or PLY files");
+  app.add_option("--whole", command.whole,
+                 "a, b or both: shows an object from all sides; its frames look outwards, in place of at a camera")
+      ->check(CLI::IsMember({"a", "b", "both"}));
   app.add_option("--radius", command.match.radius, "support radius, in the clouds' unit [suggested by their spacing]")
       ->check(finite_and_positive);
   app.add_option("--leaf", command.match.leaf, "voxel size of the key points; pairs agree within it [radius / 4]")

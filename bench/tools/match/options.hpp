@@ -11,6 +11,7 @@ namespace shortshot_bench {
 
 struct MatchCommand {
   std::vector<std::string> clouds;  // A and B; none: two generated views
+  std::string whole;                // "a", "b", "both": an object from all sides
   MatchOptions match;
   std::string out = "match";  // OUT.png, OUT-moved.png, OUT-pose.txt
   std::size_t width = 1600;   // of the pictures, in pixels

@@ -8,6 +8,7 @@
 #include "tools/io/binary_file.hpp"
 #include "tools/io/folder_name.hpp"
 #include "tools/io/read_cloud.hpp"
+#include "tools/io/view_of_cloud.hpp"
 #include "tools/match/match.hpp"
 #include "tools/match/pictures.hpp"
 #include "tools/match/report.hpp"
@@ -33,14 +34,28 @@ void write_files(const MatchCommand& command, const NamedCloud& a, const NamedCl
   std::printf("written: %s, %s\n", moved_picture.c_str(), pose.c_str());
 }
 
+RgbdCloud read_side(const MatchCommand& command, std::size_t side) {
+  RgbdCloud cloud = read_cloud(command.clouds[side]);
+  cloud.is_whole = command.whole == "both" || command.whole == (side == 0 ? "a" : "b");
+  return cloud;
+}
+
+void print_cloud(char letter, const NamedCloud& named) {
+  const RgbdCloud& cloud = named.cloud;
+  std::printf("%c: %s, %zu points\n", letter, named.name.c_str(), cloud.size());
+  if (cloud.is_whole || !surrounds_its_viewpoint(cloud)) return;
+  std::printf("note: %c lies around its viewpoint: if it shows an object from all sides, say so with --whole\n",
+              letter);
+}
+
 }  // namespace
 
 bool run_match(const MatchCommand& command) {
   const bool is_generated = command.clouds.empty();
   TabletopOptions other_view;
   other_view.turn = 0.25;
-  const RgbdCloud a = is_generated ? make_tabletop() : read_cloud(command.clouds[0]);
-  const RgbdCloud b = is_generated ? make_tabletop(other_view) : read_cloud(command.clouds[1]);
+  const RgbdCloud a = is_generated ? make_tabletop() : read_side(command, 0);
+  const RgbdCloud b = is_generated ? make_tabletop(other_view) : read_side(command, 1);
   const auto start = std::chrono::steady_clock::now();
   const MatchResult result = match_clouds(a, b, command.match);
   const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
@@ -50,7 +65,8 @@ bool run_match(const MatchCommand& command) {
   }
   const NamedCloud named_a{is_generated ? "generated tabletop" : folder_name(command.clouds[0]), a};
   const NamedCloud named_b{is_generated ? "the same, turned" : folder_name(command.clouds[1]), b};
-  std::printf("A: %s, %zu points\nB: %s, %zu points\n", named_a.name.c_str(), a.size(), named_b.name.c_str(), b.size());
+  print_cloud('A', named_a);
+  print_cloud('B', named_b);
   print_report(result, elapsed.count());
   write_files(command, named_a, named_b, result);
   return result.is_found;

@@ -18,6 +18,8 @@ bool parse_recognize_options(int argc, const char* const* argv, RecognizeCommand
       ->add_option("--radius", command.radius,
                    "support radius of a new model, in the clouds' unit [suggested by the first cloud]")
       ->check(finite_and_positive);
+  learn->add_flag("--whole", command.is_whole,
+                  "each cloud shows the object from all sides; frames look outwards, in place of at a camera");
   CLI::App* const recognize = app.add_subcommand(
       "recognize", "says which object a cloud shows, and draws it: exit code 0, 1 for none of these, 2 for bad input");
   recognize->add_option("model", command.model, "file of the model")->required();

@@ -13,6 +13,7 @@ struct RecognizeCommand {
   std::string name;                 // learn: of the object
   std::vector<std::string> clouds;  // one each of the object; recognize: one
   float radius = 0.0f;              // learn, of a new model; 0: suggested for the first cloud
+  bool is_whole = false;            // learn: the clouds show the object from all sides
   double expected = 0.01;           // recognize: as match has it
   unsigned threads = 1;
   std::string out = "recognize.png";

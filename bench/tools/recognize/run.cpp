@@ -80,7 +80,8 @@ void run_learn(const RecognizeCommand& command) {
   const bool is_new = !std::filesystem::exists(command.model);
   shortshot::Recognizer recognizer = is_new ? shortshot::Recognizer{} : load_model(command.model);
   for (std::size_t i = 0; i < command.clouds.size(); ++i) {
-    const RgbdCloud cloud = read_cloud(command.clouds[i]);
+    RgbdCloud cloud = read_cloud(command.clouds[i]);
+    cloud.is_whole = command.is_whole;
     about(command.clouds[i], [&] {
       if (is_new && i == 0) {
         const float radius = command.radius > 0.0f ? command.radius : suggested_radius(cloud);

@@ -87,6 +87,8 @@ double tail_by_hand(int n, int least, double p) {
 TEST_CASE("match: command lines") {
   CHECK(exit_code_of({}) == -1);
   CHECK(exit_code_of({"a.pcd", "b.ply", "--radius", "0.1", "--out", "x"}) == -1);
+  CHECK(exit_code_of({"a.pcd", "b.ply", "--whole", "both"}) == -1);
+  CHECK(exit_code_of({"a.pcd", "b.ply", "--whole", "c"}) == 2);
   CHECK(exit_code_of({"--help"}) == 0);
   for (const char* wrong : {"--radius=0", "--leaf=nan", "--expected=-1", "--threads=0", "--width=10", "--nothing"}) {
     CHECK(exit_code_of({wrong}) == 2);

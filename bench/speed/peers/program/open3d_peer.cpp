@@ -71,7 +71,7 @@ std::size_t add_frame(Suite& suite, const std::shared_ptr<State>& state, const s
   contender.describe = suite.add("FPFH" + which, [=] { state->describe(leaf); });
   contender.frame.push_back(contender.describe);
   contender.output_bytes = contender.made * 33 * sizeof(double);
-  contender.against = {"SSH-32", "SCSH-336"};
+  contender.against = {"ShapeColor95", "ShapeColor32", "HeightShape96", "SSH-32", "SCSH-336"};
   suite.contenders.push_back(contender);
   return sample;
 }

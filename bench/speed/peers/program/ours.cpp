@@ -105,36 +105,70 @@ auto sources_for(const State& state, std::uint32_t key) {
   }
 }
 
+/// Rows as published: floats, and frames that know no viewpoint.
+template <class D>
+struct Floats {
+  using Descriptor = D;
+  static constexpr std::size_t row_bytes = D::size_bytes;
+  static ss::Support support(ss::Radius radius) { return radius; }
+  void resize(std::size_t) {}
+  void keep(const float*, std::size_t) {}
+};
+
+/// Rows as compact descriptors are used: four bits a value, and frames that look at the camera.
+template <class D>
+struct Nibbles {
+  using Descriptor = D;
+  static constexpr std::size_t row_bytes = sizeof(ss::NibbleDescriptor<D>);
+  static ss::Support support(ss::Radius radius) {
+    ss::Support support(radius);
+    support.viewpoint = ss::Viewpoint::towards({});
+    return support;
+  }
+  void resize(std::size_t count) { rows.resize(count); }
+  void keep(const float* row, std::size_t i) { ss::quantize(row, rows[i]); }
+
+  std::vector<ss::NibbleDescriptor<D>> rows;
+};
+
 /// Search, frame and kernel of each key point; normals and the cloud's colors, by D's rule, are there already.
-template <class D, class Search>
-void describe_all(State& state, const Search& search, ss::Features<D>& features) {
+template <class Form, class D, class Search>
+void describe_all(State& state, const Search& search, ss::Features<D>& features, Form& form) {
+  const ss::Support support = Form::support(state.task.radius);
   float* row = features.values.data();
-  for (const std::uint32_t key : state.task.keypoints) {
-    const ss::Neighborhood& n = state.neighbors.gather(search, ss::point(state.view, key), state.task.radius);
+  for (std::size_t i = 0; i < state.task.keypoints.size(); ++i, row += D::size) {
+    const std::uint32_t key = state.task.keypoints[i];
+    const ss::Point center = ss::point(state.view, key);
+    const ss::Neighborhood& n = state.neighbors.gather(search, center, state.task.radius);
     ss::Frame frame;
-    if (ss::estimate_frame(n, state.task.radius, frame) == ss::Status::ok) {
-      static_cast<void>(ss::describe<D>(n, sources_for<D>(state, key), frame, state.task.radius, row));
-    }
-    row += D::size;
+    if (ss::estimate_frame(n, support.frame_radius, frame, support.viewpoint) != ss::Status::ok) continue;
+    static_cast<void>(ss::describe<D>(n, sources_for<D>(state, key), frame, support.radius, row));
+    form.keep(row, i);
   }
 }
 
-/// Adds D with one search, given by the state's member and the steps before it, which build it.
-template <class D, class Index>
+/// Adds a descriptor in a form with one search, given by the state's member and the steps before it, which build it.
+template <class Form, class Index>
 void add_contender(Suite& suite, const std::shared_ptr<State>& state, Index State::*index,
                    const std::vector<std::size_t>& before, const std::string& descriptor) {
+  using D = typename Form::Descriptor;
   const auto extractor = std::make_shared<ss::Extractor<D>>();
   const auto features = std::make_shared<ss::Features<D>>();
+  const auto form = std::make_shared<Form>();
   const auto extract = [=](unsigned threads) {
     const State& s = *state;
-    require(extractor->extract(s.view, *((*state).*index), s.keypoints, s.task.radius, *features, threads));
+    require(
+        extractor->extract(s.view, *((*state).*index), s.keypoints, Form::support(s.task.radius), *features, threads));
+    form->resize(features->size());
+    for (std::size_t i = 0; i < features->size(); ++i) form->keep((*features)[i], i);
   };
   const std::string name = descriptor + ", " + Index::name;
   Contender contender{"shortshot", descriptor, suite.name, Index::name};
   contender.frame = before;
   contender.frame.push_back(suite.add(name + ": extract", [=] { extract(1); }));
-  contender.describe = suite.add(name + ": describe", [=] { describe_all<D>(*state, *((*state).*index), *features); });
-  contender.output_bytes = state->task.keypoints.size() * (D::size_bytes + sizeof features->status[0] +
+  contender.describe =
+      suite.add(name + ": describe", [=] { describe_all(*state, *((*state).*index), *features, *form); });
+  contender.output_bytes = state->task.keypoints.size() * (Form::row_bytes + sizeof features->status[0] +
                                                            sizeof features->frames[0] + sizeof features->neighbors[0]);
   contender.rows = [=] { return static_cast<const float*>(features->values.data()); };
   suite.contenders.push_back(contender);
@@ -144,10 +178,11 @@ void add_contender(Suite& suite, const std::shared_ptr<State>& state, Index Stat
     suite.add(
         "2 threads", [=] { extract(2); }, Clock::wall);
   }
-  suite.release = [release_others = suite.release, extractor, features] {
+  suite.release = [release_others = suite.release, extractor, features, form] {
     release_others();
     *extractor = {};
     *features = {};
+    *form = {};
   };
 }
 
@@ -158,8 +193,13 @@ struct Steps {
 
 template <class D>
 void add_descriptor(Suite& suite, const std::shared_ptr<State>& state, const Steps& steps, const char* descriptor) {
-  add_contender<D>(suite, state, &State::grid, {steps.sample, steps.grid}, descriptor);
-  add_contender<D>(suite, state, &State::tree, {steps.sample, steps.tree}, descriptor);
+  add_contender<Floats<D>>(suite, state, &State::grid, {steps.sample, steps.grid}, descriptor);
+  add_contender<Floats<D>>(suite, state, &State::tree, {steps.sample, steps.tree}, descriptor);
+}
+
+template <class D>
+void add_compact(Suite& suite, const std::shared_ptr<State>& state, const Steps& steps, const char* descriptor) {
+  add_contender<Nibbles<D>>(suite, state, &State::grid, {steps.sample, steps.grid}, descriptor);
 }
 
 /// A way to estimate normals, of the image and of the points, and the descriptors that need them, PCL's own, defects
@@ -175,8 +215,8 @@ void add_with_normals(Suite& suite, const std::shared_ptr<State>& state, const S
     state->view = ss::with_normals(state->view, state->normals.data());
   });
   const std::vector<std::size_t> before{steps.sample, steps.grid, normals};
-  add_contender<ss::PclShot352>(suite, state, &State::grid, before, "SHOT-352" + suffix);
-  add_contender<ss::PclCshot1344>(suite, state, &State::grid, before, "CSHOT-1344" + suffix);
+  add_contender<Floats<ss::PclShot352>>(suite, state, &State::grid, before, "SHOT-352" + suffix);
+  add_contender<Floats<ss::PclCshot1344>>(suite, state, &State::grid, before, "CSHOT-1344" + suffix);
 }
 
 }  // namespace
@@ -206,6 +246,9 @@ Suite PEERS_SUITE(const Task& task) {
   add_descriptor<ss::Ssh32>(suite, state, steps, "SSH-32");
   add_descriptor<ss::Scsh336>(suite, state, steps, "SCSH-336");
   add_descriptor<ss::Scsh696>(suite, state, steps, "SCSH-696");
+  add_compact<ss::ShapeColor95>(suite, state, steps, "ShapeColor95");
+  add_compact<ss::ShapeColor32>(suite, state, steps, "ShapeColor32");
+  add_compact<ss::HeightShape96>(suite, state, steps, "HeightShape96");
   suite.add("Lab, PCL's rule", [=] { convert_colors<ss::PclCshot1344::LabRule>(*state); });
   add_with_normals(suite, state, steps, normals_made, "", estimate_normals);
   if (task.image.is_organized()) {

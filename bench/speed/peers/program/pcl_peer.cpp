@@ -253,8 +253,8 @@ Suite make_pcl_suite(const Task& task, bool with_fpfh) {
   using Shape = pcl::SHOTEstimation<Point, pcl::Normal, pcl::SHOT352>;
   using Fpfh = pcl::FPFHEstimation<Point, pcl::Normal, pcl::FPFHSignature33>;
   add_shot<Color, pcl::SHOT1344>(suite, state, steps, "PCL SHOTColor", "CSHOT-1344",
-                                 {"SCSH-336", "SCSH-696", "CSHOT-1344"});
-  add_shot<Shape, pcl::SHOT352>(suite, state, steps, "PCL SHOT", "SHOT-352", {"SSH-32", "SHOT-352"});
+                                 {"ShapeColor95", "ShapeColor32", "SCSH-336", "SCSH-696", "CSHOT-1344"});
+  add_shot<Shape, pcl::SHOT352>(suite, state, steps, "PCL SHOT", "SHOT-352", {"HeightShape96", "SSH-32", "SHOT-352"});
   if (!with_fpfh) return suite;
   const auto output = std::make_shared<Output<Fpfh, pcl::FPFHSignature33>>();
   add_contender<pcl::FPFHSignature33>(suite, *state, "PCL FPFH", "FPFH-33", {"SSH-32"},
