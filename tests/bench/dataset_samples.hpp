@@ -73,10 +73,16 @@ inline std::string png(const std::string& samples, std::size_t width, std::size_
   for (std::size_t row = 0; row < height; ++row) {
     rows += '\0' + samples.substr(row * row_bytes, row_bytes);  // not filtered
   }
-  const auto length = static_cast<std::uint16_t>(rows.size());
-  const auto inverse = static_cast<std::uint16_t>(~length);
-  const std::string stored = std::string("\x78\x01\x01") + cloud_file_test::cell(length).bytes +
-                             cloud_file_test::cell(inverse).bytes + rows + big_endian(0);
+  std::string stored("\x78\x01", 2);
+  constexpr std::size_t most = 65535;  // of a block that is not compressed
+  for (std::size_t at = 0; at < rows.size(); at += most) {
+    const std::string block = rows.substr(at, most);
+    const auto length = static_cast<std::uint16_t>(block.size());
+    const auto inverse = static_cast<std::uint16_t>(~length);
+    stored += at + most < rows.size() ? '\0' : '\1';  // is it the last one?
+    stored += cloud_file_test::cell(length).bytes + cloud_file_test::cell(inverse).bytes + block;
+  }
+  stored += big_endian(0);
   const std::string header = big_endian(static_cast<std::uint32_t>(width)) +
                              big_endian(static_cast<std::uint32_t>(height)) + bits + static_cast<char>(color) +
                              std::string(3, '\0');

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "paper/datasets/image.hpp"
+#include "tools/depth_image/image.hpp"
 
 namespace shortshot_bench::datasets {
 

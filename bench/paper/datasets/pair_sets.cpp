@@ -92,7 +92,7 @@ PairSet view_pairs(const std::string& directory, const std::string& table) {
 }
 
 PairSet frame_pairs(const std::string& directory, const std::string& table, double max_depth) {
-  const Intrinsics camera = read_intrinsics(directory + "/camera-intrinsics.txt");
+  const PinholeCamera camera = read_pinhole_camera(directory + "/camera-intrinsics.txt");
   const auto pose = [&](const std::string& frame) { return read_rigid_motion(directory + "/" + frame + ".pose.txt"); };
   std::vector<PairEntry> pairs;
   for (const auto& row : read_csv<2>(table, {"frame_a", "frame_b"})) {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "paper/datasets/matrix_file.hpp"
 #include "tools/io/input_error.hpp"
+#include "tools/io/matrix_file.hpp"
 
 namespace shortshot_bench::datasets {
 namespace {

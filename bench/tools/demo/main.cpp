@@ -22,9 +22,7 @@
 #include "tools/demo/run.hpp"
 #include "tools/demo/slow_stage.hpp"
 #include "tools/demo/text.hpp"
-#include "tools/io/folder_name.hpp"
 #include "tools/io/input_error.hpp"
-#include "tools/io/read_cloud.hpp"
 #include "tools/io/repeated_points.hpp"
 #include "tools/io/view_of_cloud.hpp"
 #include "tools/io/write_descriptor_pcd.hpp"
@@ -166,14 +164,14 @@ void draw(const RgbdCloud& cloud, const std::string& file, const DemoOptions& op
     marked.title = std::to_string(result.keypoints.size()) + " key points, each described within " +
                    text("%g m", static_cast<double>(options.radius));
     marked.legend = marked.dots.size() > 800 ? "dots: some of the key points" : "dots: key points";
-    draw_marked({folder_name(file), cloud}, marked, width).write_png(options.picture);
+    draw_marked({name_of_input(file), cloud}, marked, width).write_png(options.picture);
   }
   std::printf("  picture             %s\n", options.picture.c_str());
 }
 
-RgbdCloud read(const std::string& file) {
+RgbdCloud read(const std::string& file, const DepthCamera& camera) {
   const SlowStage stage("reading");
-  return file.empty() ? make_tabletop() : read_cloud(file);
+  return file.empty() ? make_tabletop() : read_input(file, camera);
 }
 
 /// 0: described; 1: --check found a difference, or --diagnose something wrong; 2: bad input, said on stderr.
@@ -185,7 +183,7 @@ int demonstrate(const std::string& file, DemoOptions options) {
       throw std::runtime_error("--out would overwrite the cloud itself");
     }
     const Stopwatch reading;
-    RgbdCloud cloud = read(file);
+    RgbdCloud cloud = read(file, options.camera);
     const double read_ms = reading.elapsed_ms();
     const std::size_t dropped = options.drop_zeros ? drop_zeros(cloud) : 0;
     std::printf("%s\n", generated ? "generated tabletop scene" : file.c_str());

@@ -2,14 +2,15 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tools/io/finite_and_positive.hpp"
+#include "tools/depth_image/options.hpp"
 
 namespace shortshot_bench {
 bool parse_options(int argc, const char* const* argv, DemoOptions& options, int& exit_code) {
   CLI::App app(
       "Describe the key points of RGB-D point clouds; without a file, of a tabletop scene made up on the spot.");
   app.name("demo");
-  app.add_option("clouds", options.clouds, "PCD or PLY files");
+  app.add_option("clouds", options.clouds, "PCD or PLY files, or DEPTH.png[,COLOR.png]");
+  add_camera_options(app, options.camera);
   app.add_option(
          "--descriptor", options.descriptor,
          "shapecolor95, shapecolor32, roomcolor95, heightshape96, colorrings27 (compact); ssh32, ssh96, scsh336, "

@@ -6,10 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "tools/depth_image/read_input.hpp"
+
 namespace shortshot_bench {
 
 struct DemoOptions {
   std::vector<std::string> clouds;  // files; empty: the generated tabletop
+  DepthCamera camera;
   std::string descriptor = "scsh336";
   float radius = 0.04f;  // of the generated scene; of a file's cloud what is suggested, where none is asked for
   std::optional<float> normal_radius;  // of the normals, where it needs them; the file's, or a quarter of the radius

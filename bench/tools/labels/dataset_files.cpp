@@ -9,18 +9,9 @@
 
 namespace shortshot_bench::datasets {
 
-bool is_file(const std::string& path) {
-  std::error_code ignored;
-  return std::filesystem::is_regular_file(path, ignored);
-}
-
 bool is_folder(const std::string& path) {
   std::error_code ignored;
   return std::filesystem::is_directory(path, ignored);
-}
-
-void require_file(const std::string& path, const std::string& what) {
-  if (!is_file(path)) throw InputError::about(path, "expected " + what + ", found no file of this name");
 }
 
 void require_files(const std::vector<std::string>& paths, const std::string& what) {

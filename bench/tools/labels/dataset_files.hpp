@@ -5,18 +5,15 @@
 #include <vector>
 
 #include "tools/io/input_error.hpp"
+#include "tools/io/require_file.hpp"
 #include "tools/io/rgbd_cloud.hpp"
 
 namespace shortshot_bench::datasets {
 
 /// False also for what cannot be asked about.
-bool is_file(const std::string& path);
 bool is_folder(const std::string& path);
 
-/// Throws InputError unless `path` is a regular file; `what` says what it should have been ("a depth image").
-void require_file(const std::string& path, const std::string& what);
-
-/// The same of many; says how many are missing.
+/// require_file() of many; says how many are missing.
 void require_files(const std::vector<std::string>& paths, const std::string& what);
 
 /// In meters, where a unit of the cloud is `meters` long.

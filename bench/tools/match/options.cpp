@@ -2,7 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tools/io/finite_and_positive.hpp"
+#include "tools/depth_image/options.hpp"
+#include "tools/io/threads_option.hpp"
 
 namespace shortshot_bench {
 
@@ -12,7 +13,8 @@ bool parse_match_options(int argc, const char* const* argv, MatchCommand& comman
       "files: two views of a tabletop made up on the spot. The exit code is 0 if B is found, 1 if not, 2 for bad "
       "input.");
   app.name("match");
-  app.add_option("clouds", command.clouds, "A and B: PCD or PLY files");
+  app.add_option("clouds", command.clouds, "A and B: PCD or PLY files, or DEPTH.png[,COLOR.png]");
+  add_camera_options(app, command.camera);
   app.add_option("--whole", command.whole,
                  "a, b or both: shows an object from all sides; its frames look outwards, in place of at a camera")
       ->check(CLI::IsMember({"a", "b", "both"}));
@@ -24,9 +26,7 @@ bool parse_match_options(int argc, const char* const* argv, MatchCommand& comman
                  "found is what chance would find less often than that in a pair of clouds that have nothing in common")
       ->check(finite_and_positive)
       ->capture_default_str();
-  app.add_option("--threads", command.match.threads, "threads, 1 to 256")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_threads_option(app, command.match.threads);
   app.add_option("--out", command.out, "writes OUT.png, OUT-moved.png and OUT-pose.txt")->capture_default_str();
   app.add_option("--width", command.width, "of the pictures, in pixels")
       ->check(CLI::Range(400, 8000))

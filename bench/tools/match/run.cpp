@@ -5,9 +5,8 @@
 #include <filesystem>
 #include <string>
 
+#include "tools/depth_image/read_input.hpp"
 #include "tools/io/binary_file.hpp"
-#include "tools/io/folder_name.hpp"
-#include "tools/io/read_cloud.hpp"
 #include "tools/io/view_of_cloud.hpp"
 #include "tools/match/match.hpp"
 #include "tools/match/pictures.hpp"
@@ -35,7 +34,7 @@ void write_files(const MatchCommand& command, const NamedCloud& a, const NamedCl
 }
 
 RgbdCloud read_side(const MatchCommand& command, std::size_t side) {
-  RgbdCloud cloud = read_cloud(command.clouds[side]);
+  RgbdCloud cloud = read_input(command.clouds[side], command.camera);
   cloud.is_whole = command.whole == "both" || command.whole == (side == 0 ? "a" : "b");
   return cloud;
 }
@@ -63,8 +62,8 @@ bool run_match(const MatchCommand& command) {
     std::printf("%s\n", quiet_line(result).c_str());
     return result.is_found;
   }
-  const NamedCloud named_a{is_generated ? "generated tabletop" : folder_name(command.clouds[0]), a};
-  const NamedCloud named_b{is_generated ? "the same, turned" : folder_name(command.clouds[1]), b};
+  const NamedCloud named_a{is_generated ? "generated tabletop" : name_of_input(command.clouds[0]), a};
+  const NamedCloud named_b{is_generated ? "the same, turned" : name_of_input(command.clouds[1]), b};
   print_cloud('A', named_a);
   print_cloud('B', named_b);
   print_report(result, elapsed.count());

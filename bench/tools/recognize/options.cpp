@@ -2,7 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tools/io/finite_and_positive.hpp"
+#include "tools/depth_image/options.hpp"
+#include "tools/io/threads_option.hpp"
 
 namespace shortshot_bench {
 
@@ -13,7 +14,10 @@ bool parse_recognize_options(int argc, const char* const* argv, RecognizeCommand
   CLI::App* const learn = app.add_subcommand("learn", "adds views of an object to a model, or begins one");
   learn->add_option("model", command.model, "file of the model")->required();
   learn->add_option("name", command.name, "of the object")->required();
-  learn->add_option("clouds", command.clouds, "PCD or PLY files with colors, each with the object alone")->required();
+  learn
+      ->add_option("clouds", command.clouds,
+                   "PCD or PLY files, or DEPTH.png,COLOR.png, each with the object alone, in color")
+      ->required();
   learn
       ->add_option("--radius", command.radius,
                    "support radius of a new model, in the clouds' unit [suggested by the first cloud]")
@@ -23,7 +27,9 @@ bool parse_recognize_options(int argc, const char* const* argv, RecognizeCommand
   CLI::App* const recognize = app.add_subcommand(
       "recognize", "says which object a cloud shows, and draws it: exit code 0, 1 for none of these, 2 for bad input");
   recognize->add_option("model", command.model, "file of the model")->required();
-  recognize->add_option("cloud", command.clouds, "PCD or PLY file with colors")->required()->expected(1);
+  recognize->add_option("cloud", command.clouds, "PCD or PLY file, or DEPTH.png,COLOR.png, in color")
+      ->required()
+      ->expected(1);
   recognize
       ->add_option("--expected", command.expected,
                    "an object is what chance would find less often than that in a cloud without any")
@@ -35,9 +41,8 @@ bool parse_recognize_options(int argc, const char* const* argv, RecognizeCommand
       ->capture_default_str();
   recognize->add_flag("--quiet", command.quiet, "the name alone, or nothing, and no picture");
   for (CLI::App* const verb : {learn, recognize}) {
-    verb->add_option("--threads", command.threads, "threads, 1 to 256")
-        ->check(CLI::Range(1, 256))
-        ->capture_default_str();
+    add_camera_options(*verb, command.camera);
+    add_threads_option(*verb, command.threads);
   }
   exit_code = 0;
   try {

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "tools/depth_image/read_input.hpp"
+
 namespace shortshot_bench {
 
 struct RecognizeCommand {
@@ -12,9 +14,10 @@ struct RecognizeCommand {
   std::string model;                // file
   std::string name;                 // learn: of the object
   std::vector<std::string> clouds;  // one each of the object; recognize: one
-  float radius = 0.0f;              // learn, of a new model; 0: suggested for the first cloud
-  bool is_whole = false;            // learn: the clouds show the object from all sides
-  double expected = 0.01;           // recognize: as match has it
+  DepthCamera camera;
+  float radius = 0.0f;     // learn, of a new model; 0: suggested for the first cloud
+  bool is_whole = false;   // learn: the clouds show the object from all sides
+  double expected = 0.01;  // recognize: as match has it
   unsigned threads = 1;
   std::string out = "recognize.png";
   std::size_t width = 1600;

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "shortshot/shortshot.hpp"
-#include "tools/io/folder_name.hpp"
+#include "tools/depth_image/read_input.hpp"
 #include "tools/io/input_error.hpp"
-#include "tools/io/read_cloud.hpp"
 #include "tools/picture/marks.hpp"
 #include "tools/recognize/objects.hpp"
 
@@ -80,7 +79,7 @@ void run_learn(const RecognizeCommand& command) {
   const bool is_new = !std::filesystem::exists(command.model);
   shortshot::Recognizer recognizer = is_new ? shortshot::Recognizer{} : load_model(command.model);
   for (std::size_t i = 0; i < command.clouds.size(); ++i) {
-    RgbdCloud cloud = read_cloud(command.clouds[i]);
+    RgbdCloud cloud = read_input(command.clouds[i], command.camera);
     cloud.is_whole = command.is_whole;
     about(command.clouds[i], [&] {
       if (is_new && i == 0) {
@@ -98,7 +97,7 @@ void run_learn(const RecognizeCommand& command) {
 bool run_recognize(const RecognizeCommand& command) {
   const shortshot::Recognizer recognizer = load_model(command.model);
   const std::string& file = command.clouds.front();
-  const RgbdCloud cloud = read_cloud(file);
+  const RgbdCloud cloud = read_input(file, command.camera);
   shortshot::Features<ObjectDescriptor> features;
   std::vector<Recognized> all;
   about(file, [&] {
@@ -116,7 +115,7 @@ bool run_recognize(const RecognizeCommand& command) {
               static_cast<double>(radius_of(recognizer)));
   print(recognizer, all, features.size());
   std::printf("%s\n", name.c_str());
-  draw({folder_name(file), cloud}, features, name, is_known ? best : nullptr, command);
+  draw({name_of_input(file), cloud}, features, name, is_known ? best : nullptr, command);
   return is_known;
 }
 

@@ -8,18 +8,18 @@
 #include <vector>
 
 #include "dataset_samples.hpp"
-#include "paper/datasets/image.hpp"
 #include "paper/datasets/pair_sets.hpp"
+#include "tools/depth_image/image.hpp"
 
 namespace test_datasets_frames {
 namespace {
 
 using namespace dataset_test;
+using shortshot_bench::read_color_image;
+using shortshot_bench::read_depth_image;
 using shortshot_bench::RgbdCloud;
 using shortshot_bench::datasets::open_pair_sets;
 using shortshot_bench::datasets::PairSet;
-using shortshot_bench::datasets::read_color_image;
-using shortshot_bench::datasets::read_depth_image;
 using shortshot_bench::datasets::ViewPair;
 
 constexpr auto intrinsics = "2.0e+00 0 1\n0 4 0.5\n0 0 1\n";

@@ -1,13 +1,13 @@
-#include "paper/datasets/matrix_file.hpp"
+#include "tools/io/matrix_file.hpp"
 
 #include <cmath>
 #include <string_view>
 
+#include "tools/io/require_file.hpp"
 #include "tools/io/scalar_type.hpp"
 #include "tools/io/text_rows.hpp"
-#include "tools/labels/dataset_files.hpp"
 
-namespace shortshot_bench::datasets {
+namespace shortshot_bench {
 
 std::vector<double> read_matrix(const std::string& path, std::size_t rows, std::size_t columns,
                                 const std::string& what) {
@@ -34,4 +34,4 @@ std::vector<double> read_matrix(const std::string& path, std::size_t rows, std::
   return values;
 }
 
-}  // namespace shortshot_bench::datasets
+}  // namespace shortshot_bench

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace shortshot_bench::datasets {
+namespace shortshot_bench {
 
 struct ColorImage {
   std::size_t width = 0;
@@ -17,7 +17,7 @@ struct ColorImage {
 struct DepthImage {
   std::size_t width = 0;
   std::size_t height = 0;
-  std::vector<std::uint16_t> depth_mm;  // 1 per pixel, row by row, as the file has it
+  std::vector<std::uint16_t> counts;  // 1 per pixel, row by row, as the file has it
 };
 
 /// JPEG or PNG; gray becomes r = g = b. Both throw InputError for what is no such image, and above 2^26 pixels, so that
@@ -27,4 +27,4 @@ ColorImage read_color_image(const std::string& path);
 /// PNG, 16 bits, one channel: any other would be scaled on reading, and is refused.
 DepthImage read_depth_image(const std::string& path);
 
-}  // namespace shortshot_bench::datasets
+}  // namespace shortshot_bench

@@ -1,13 +1,13 @@
-#include "paper/datasets/image.hpp"
+#include "tools/depth_image/image.hpp"
 
 #include <memory>
 
-#include "tools/labels/dataset_files.hpp"
+#include "tools/io/require_file.hpp"
 
 #define STB_IMAGE_IMPLEMENTATION  // here and nowhere else
 #include <stb/stb_image.h>
 
-namespace shortshot_bench::datasets {
+namespace shortshot_bench {
 namespace {
 
 struct Header {
@@ -62,4 +62,4 @@ DepthImage read_depth_image(const std::string& path) {
           std::vector<std::uint16_t>(pixels.get(), pixels.get() + header.pixels())};
 }
 
-}  // namespace shortshot_bench::datasets
+}  // namespace shortshot_bench

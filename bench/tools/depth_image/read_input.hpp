@@ -1,0 +1,23 @@
+// What a user names as a cloud: a cloud file, or images of a depth camera.
+#pragma once
+
+#include <string>
+
+#include "tools/io/rgbd_cloud.hpp"
+
+namespace shortshot_bench {
+
+/// What a depth image does not say of itself.
+struct DepthCamera {
+  std::string intrinsics;  // FX,FY,CX,CY, or a file with the matrix; empty: not given
+  double unit = 0.001;     // meters in a count of the image
+};
+
+/// A PCD or PLY file, "DEPTH.png", or "DEPTH.png,COLOR.png" (a JPEG, too); a PNG file is told by its content. Throws
+/// InputError, also for a depth image without intrinsics.
+RgbdCloud read_input(const std::string& input, const DepthCamera& camera);
+
+/// What a picture calls it: the name of the cloud's or the depth image's file, without its folder.
+std::string name_of_input(const std::string& input);
+
+}  // namespace shortshot_bench
