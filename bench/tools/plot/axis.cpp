@@ -50,4 +50,13 @@ std::string ticks_at(const std::string& name, const std::vector<double>& places)
   return text + "); ";
 }
 
+double round_step(double span, int most) {
+  const double least = span / most;
+  const double decade = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double digit : {1.0, 2.0, 5.0}) {
+    if (least <= digit * decade * (1.0 + 1e-9)) return digit * decade;
+  }
+  return 10.0 * decade;
+}
+
 }  // namespace shortshot_bench

@@ -14,4 +14,7 @@ std::string positive_axis(const std::string& name, double least, double most);
 /// gnuplot's command for ticks at these places alone.
 std::string ticks_at(const std::string& name, const std::vector<double>& places);
 
+/// The least of 1, 2, 5, 10, ... and of their tenths, hundredths, ... that is in `span` at most `most` times.
+double round_step(double span, int most);
+
 }  // namespace shortshot_bench
