@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "paper/accuracy.hpp"
@@ -67,46 +68,55 @@ std::set<int> values_of(const std::vector<MemberResult>& members, int MemberResu
 
 double accuracy(const ByObject& values) { return 100.0 * over_objects(values).value; }
 
-/// Accuracy against bins, a color for each color grid, CSHOT as a level line; above, the bytes of n_c = 24.
-campaign::Plot figure_5(const std::vector<MemberResult>& members, const TaskResults& task) {
+/// Round, at least a tenth of the way below 100 %, where all are.
+double least_percent(const std::vector<campaign::Series>& series) {
+  double least = 90.0;
+  for (const campaign::Series& s : series) {
+    for (const double y : s.ys) least = std::min(least, 10.0 * std::floor(y / 10.0));
+  }
+  return least;
+}
+
+/// Accuracy against bins, a line for each color grid, CSHOT as a level; above, the bytes of n_c = 24.
+campaign::Plot figure_5(const std::vector<MemberResult>& members, const TaskResults& task, const char* what,
+                        ByObject MemberResult::*values, const ByObject& of_cshot) {
   campaign::Plot plot;
-  plot.title = task.name;
-  plot.x.label = "bins h (n_g = 96); above: bytes with n_c = 24";
-  plot.y.label = "accuracy, %";
-  plot.y.max = 100.0;
+  plot.title = task.name + ": " + what + " recognized by the Hough vote";
+  plot.x.label = "bins h of each color cell, n_g = 96 (above: bytes with n_c = 24)";
+  plot.y.label = std::string("accuracy, % (") + what + ")";
   const std::set<int> bins = values_of(members, &MemberResult::h);
   plot.x.min = *bins.begin() - 1;
   plot.x.max = *bins.rbegin() + 1;
-  int color = 0;
   for (const int n_c : values_of(members, &MemberResult::n_c)) {
-    ++color;
-    campaign::Series classes{"class, n_c = " + std::to_string(n_c), {}, {}, color, false, false};
-    campaign::Series instances{"instance, n_c = " + std::to_string(n_c), {}, {}, color, true, false};
+    campaign::Series& series = plot.series.emplace_back();
+    series.name = "n_c = " + std::to_string(n_c);
     for (const int h : bins) {
       const MemberResult* const m = find(members, 96, n_c, h);
       if (m == nullptr) continue;
-      for (campaign::Series* const series : {&classes, &instances}) series->xs.push_back(h);
-      classes.ys.push_back(accuracy(m->classes));
-      instances.ys.push_back(accuracy(m->instances));
+      series.xs.push_back(h);
+      series.ys.push_back(accuracy(m->*values));
     }
-    plot.series.push_back(classes);
-    plot.series.push_back(instances);
   }
-  for (const auto& [name, figure] :
-       {NamedFigure{"class, CSHOT", hough_class}, NamedFigure{"instance, CSHOT", hough_instance}}) {
-    const double level = accuracy(correct(task.of.at("cshot1344"), figure));
-    plot.series.push_back({name,
-                           {static_cast<double>(*bins.begin()), static_cast<double>(*bins.rbegin())},
-                           {level, level},
-                           color + 1,
-                           figure == hough_instance,
-                           false});
-  }
+  const double level = accuracy(of_cshot);
+  plot.series.push_back({"CSHOT", {plot.x.min, plot.x.max}, {level, level}, campaign::Marks::line});
+  plot.y.min = least_percent(plot.series);
+  plot.y.max = 100.0 + 0.03 * (100.0 - plot.y.min);  // what is at 100 % is not on the frame
   for (const int h : bins) {
     plot.x.ticks.push_back({static_cast<double>(h), std::to_string(h)});
     plot.second_x.ticks.push_back({static_cast<double>(h), std::to_string(4 * (96 + 24 * h))});
   }
   return plot;
+}
+
+std::vector<std::string> draw(const std::vector<MemberResult>& members, const TaskResults& task,
+                              const std::string& prefix, const std::string& directory) {
+  const std::vector<Judgement>& cshot = task.of.at("cshot1344");
+  const std::vector<std::string> files{prefix + "class.svg", prefix + "instance.svg"};
+  campaign::write_svg(figure_5(members, task, "class", &MemberResult::classes, correct(cshot, hough_class)),
+                      directory + "/" + files[0]);
+  campaign::write_svg(figure_5(members, task, "instance", &MemberResult::instances, correct(cshot, hough_instance)),
+                      directory + "/" + files[1]);
+  return files;
 }
 
 /// The mean gain of instance accuracy from one size to another wherever both are there with all else equal.
@@ -156,11 +166,10 @@ Findings ablation_report(const nlohmann::ordered_json& parameters, const UnitRes
   for (const TaskResults& task : tasks_of(parameters, results)) {
     const std::string prefix = "task" + std::to_string(++number) + "_";
     const std::vector<MemberResult> members = members_of(parameters, task);
-    campaign::write_svg(figure_5(members, task), directory + "/" + prefix + "sizes.svg");
     report.sections.push_back({task.name,
                                "Accuracies of the Hough vote in percent with 95 % bootstrap intervals over objects.",
                                {{prefix + "sizes", accuracy_table(members, task, findings.figures)}},
-                               {prefix + "sizes.svg"}});
+                               draw(members, task, prefix, directory)});
     add_claims(members, task.name, claims);
   }
   report.sections.push_back(section_of(claims));

@@ -196,27 +196,33 @@ Table bin_table(const SetResults& set) {
   return table;
 }
 
-/// One line for each descriptor over the pairs, ordered as they are listed: the paper's figures 3 and 4.
-std::string draw(const SetResults& set, std::size_t number, const std::string& name, const std::string& label,
-                 Figure figure, double most, const std::string& directory) {
+/// A figure of each pair: the paper's figures 3 and 4, of which each descriptor has its panel.
+campaign::Plot plot_of_pairs(const SetResults& set, const std::string& label, const std::string& meaning,
+                             Figure figure) {
   campaign::Plot plot;
-  plot.title = set.name;
-  plot.x.label = "pair, by the rotation between its views";
-  plot.x.min = 0.0;
-  plot.x.max = static_cast<double>(set.rotation_deg.size() + 1);
+  plot.title = set.name + ": " + label + ", " + meaning;
+  plot.x = campaign::axis_of_numbers("number of the pair, in the order of the rotation between its views",
+                                     set.rotation_deg.size());
   plot.y.label = label;
-  plot.y.min = 0.0;
-  plot.y.max = most;
+  plot.in_panels = true;
   for (const std::string& d : set.descriptors) {
-    campaign::Series series;
+    campaign::Series& series = plot.series.emplace_back();
     series.name = d;
+    series.marks = campaign::Marks::points;
     series.ys = set.figures(d, figure);
     for (std::size_t i = 0; i < series.ys.size(); ++i) series.xs.push_back(static_cast<double>(i + 1));
-    plot.series.push_back(series);
   }
-  const std::string file = "set" + std::to_string(number) + "_" + name + ".svg";
-  campaign::write_svg(plot, directory + "/" + file);
-  return file;
+  return plot;
+}
+
+std::vector<std::string> draw(const SetResults& set, const std::string& prefix, const std::string& directory) {
+  campaign::Plot errors = plot_of_pairs(set, "T_diff", "the error of a pose (equation 9)", median_t_diff);
+  errors.y.logarithmic = true;
+  campaign::Plot inliers = plot_of_pairs(set, "C_rk", "the share of inliers of all key points", c_rk);
+  inliers.y.min = 0.0;
+  campaign::write_svg(errors, directory + "/" + prefix + "t_diff.svg");
+  campaign::write_svg(inliers, directory + "/" + prefix + "c_rk.svg");
+  return {prefix + "t_diff.svg", prefix + "c_rk.svg"};
 }
 
 /// Each pair and descriptor on a row: what the plots show, and more.
@@ -268,8 +274,7 @@ Findings matching_report(const nlohmann::ordered_json& parameters, const UnitRes
           {prefix + "differences", difference_table(set)},
           {prefix + "rotation", bin_table(set)},
           {prefix + "pairs", pair_table(set)}},
-         {draw(set, number, "t_diff", "T_diff (equation 9)", median_t_diff, 3.0, directory),
-          draw(set, number, "c_rk", "C_rk", c_rk, campaign::automatic, directory)}});
+         draw(set, prefix, directory)});
     if (keeps_frames(set.descriptors)) {
       report.sections.back().tables.push_back({prefix + "kept_frames", kept_table(set)});
     }

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "paper/campaign/plot.hpp"
 #include "tradeoff/map.hpp"
+#include "tradeoff/map_plots.hpp"
 
 namespace shortshot_bench::tradeoff {
 namespace {
@@ -177,52 +177,6 @@ Table measure_table(const Map& map, const Measure& m, std::vector<paper::FigureV
   return table;
 }
 
-campaign::Series series(const std::string& name, const Map& map, double Cost::*time, bool (*chosen)(const Entry&),
-                        int color, bool line) {
-  campaign::Series s;
-  s.name = name;
-  s.color = color;
-  std::vector<std::pair<double, double>> places;
-  for (const Entry& e : map.entries) {
-    if (e.score > 0.0 && chosen(e)) {
-      places.emplace_back(time != nullptr ? e.cost.*time : static_cast<double>(e.size_bytes), e.score);
-    }
-  }
-  std::sort(places.begin(), places.end());
-  double best = 0.0;
-  for (const auto& [x, y] : places) {
-    if (line && !(y > best)) continue;  // on the front for what this plot does not show
-    best = std::max(best, y);
-    s.xs.push_back(x);
-    s.ys.push_back(y);
-    if (line) continue;
-    s.xs.push_back(x);  // a gap: points without a line
-    s.ys.push_back(none);
-  }
-  return s;
-}
-
-/// The score of all entries against bytes, or against time.
-void draw(const Map& map, double Cost::*time, const std::string& label, const std::string& path) {
-  campaign::Plot plot;
-  plot.title = "Right matches, over those of CSHOT in 5,376 bytes";
-  plot.x.label = label;
-  plot.x.logarithmic = true;
-  plot.y.label = "score";
-  plot.y.min = 0.0;
-  plot.series = {
-      series(
-          "relatives", map, time, [](const Entry& e) { return e.kind == Kind::relative; }, 8, false),
-      series(
-          "published", map, time, [](const Entry& e) { return e.kind == Kind::published; }, 2, false),
-      series(
-          "compact", map, time, [](const Entry& e) { return e.kind == Kind::compact; }, 3, false),
-      series(
-          "front", map, time, [](const Entry& e) { return e.on_front; }, 1, true),
-  };
-  campaign::write_svg(plot, path);
-}
-
 }  // namespace
 
 paper::Findings report_of(const Map& map, const nlohmann::ordered_json& parameters, const std::string& directory) {
@@ -244,8 +198,7 @@ paper::Findings report_of(const Map& map, const nlohmann::ordered_json& paramete
   }
   findings.report.sections.push_back(paper::section_of(findings.figures));
   if (std::any_of(map.entries.begin(), map.entries.end(), [](const Entry& e) { return e.score > 0.0; })) {
-    draw(map, nullptr, "bytes", directory + "/score_by_bytes.svg");
-    draw(map, &Cost::microseconds, "microseconds a key point", directory + "/score_by_time.svg");
+    draw_scores(map, directory);
   } else {
     findings.report.sections.front().plots.clear();
   }

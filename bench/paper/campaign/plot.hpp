@@ -1,4 +1,4 @@
-// Plots of results as SVG: for each series a line with points, or points with intervals.
+// Plots of results as SVG: all series in one plot, or a panel for each where they could not be told apart.
 #pragma once
 
 #include <limits>
@@ -17,24 +17,35 @@ struct Tick {
 
 struct Axis {
   std::string label{};
-  bool logarithmic = false;  // values that are not positive are left out
+  bool logarithmic = false;  // values that are not positive are left out; min and max are those of the values drawn
   double min = automatic;
   double max = automatic;
-  std::vector<Tick> ticks{};  // empty: chosen by gnuplot
+  std::vector<Tick> ticks{};  // empty: chosen by the range
+  bool unordered = false;     // neighbors have nothing to do with each other: no line may join them
 };
 
-/// Places 0, 1, 2, ... with these names: for an axis of categories.
-std::vector<Tick> category_ticks(const std::vector<std::string>& names);
+/// The y axis of unordered names, which are at 0, 1, 2, ... from above down.
+Axis axis_of_names(const std::vector<std::string>& names);
+
+/// An axis of unordered things with the numbers from 1 to `count`, of which some round ones are ticks.
+Axis axis_of_numbers(const std::string& label, std::size_t count);
+
+enum class Marks {
+  line_with_points,  // x is a quantity, and there are values between those that were measured
+  line,              // a curve, or a level
+  steps,             // a value holds up to the next
+  points,            // no line: neighbors on the axis have no order
+  intervals          // points with a bar along x from lows to highs
+};
 
 struct Series {
   std::string name{};
   std::vector<double> xs{};
   std::vector<double> ys{};  // as many; one that is not finite is a gap in the line
-  int color = 0;             // 1 to 8: the same color for series that belong together; 0: by its place in the list
-  bool dashed = false;
-  bool on_second_y = false;     // dotted, unless dashed
-  std::vector<double> lows{};   // if there are any, as many as xs: points with bars from here
-  std::vector<double> highs{};  // to here, and no line: where neighbors on the axis have no order
+  Marks marks = Marks::line_with_points;
+  int style = 0;  // 1 to 8, of style.gp: color, dashes and mark; 0: by its place in the list
+  std::vector<double> lows{};
+  std::vector<double> highs{};  // of intervals: as many as xs
 };
 
 struct Plot {
@@ -42,14 +53,14 @@ struct Plot {
   Axis x{};
   Axis y{};
   std::vector<Series> series{};
-  Axis second_x{};  // above, on the same scale as x; there if it has ticks: bytes for each number of bins, say
-  Axis second_y{};  // on the right; there if a series is on it
-  int width = 900;  // pixels
-  int height = 480;
+  Axis second_x{};         // above, on the same scale as x; there if it has ticks, which x.label explains
+  bool in_panels = false;  // one for each series, before all others in light gray: for more than a few
+  int width = 800;         // pixels
+  int height = 500;        // without panels, which are as high as they need
 };
 
 /// What gnuplot is to read, without any path or date. Throws std::invalid_argument if a series has not as many ys as
-/// xs, or lows or highs, if none has anything to draw.
+/// xs, or lows or highs, if none has anything to draw, or if it would draw a line along an unordered axis.
 std::string plot_script(const Plot& plot);
 
 /// Draws the plot by draw_svg(), which see for what is thrown.

@@ -141,9 +141,12 @@ TEST_CASE("ablation: a report with sizes, a figure 5 and claims") {
   const std::string report = campaign::markdown_of(findings.report);
   CHECK(report.find("| 96-16-15 | 336 | 1344 |") != std::string::npos);
   CHECK(report.find("| cups: n_c = 24 is better than 16 | instance accuracy, gain | 0.500") != std::string::npos);
-  std::ifstream plot(directory + "/task1_sizes.svg");
-  const std::string svg((std::istreambuf_iterator<char>(plot)), std::istreambuf_iterator<char>());
-  CHECK(svg.find("n_c = 24") != std::string::npos);
+  for (const char* what : {"class", "instance"}) {
+    std::ifstream plot(directory + "/task1_" + what + ".svg");
+    const std::string svg((std::istreambuf_iterator<char>(plot)), std::istreambuf_iterator<char>());
+    CHECK(svg.find(std::string("cups: ") + what + " recognized by the Hough vote") != std::string::npos);
+    CHECK(svg.find("n_c = 24") != std::string::npos);
+  }
 }
 
 }  // namespace test_paper_recognition

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "paper/campaign/plot.hpp"
 #include "paper/campaign/statistics.hpp"
 #include "paper/registration.hpp"
 #include "paper/registration_experiment.hpp"
@@ -187,18 +186,6 @@ TEST_CASE("a bootstrap of any statistic is that of the mean where it is the mean
   CHECK(a.value == doctest::Approx(b.value));
   CHECK(a.low == doctest::Approx(b.low));
   CHECK(a.high == doctest::Approx(b.high));
-}
-
-TEST_CASE("points with bars have no line, and a bar each") {
-  campaign::Plot plot;
-  plot.series = {{"a", {0.0, 1.0}, {0.5, 0.6}}};
-  plot.series[0].lows = {0.4, 0.5};
-  CHECK_THROWS_AS(static_cast<void>(campaign::plot_script(plot)), std::invalid_argument);
-  plot.series[0].highs = {0.6, 0.9};
-  const std::string text = campaign::plot_script(plot);
-  CHECK(text.find("1 0.6 0.5 0.9\n") != std::string::npos);
-  CHECK(text.find("using 1:2:3:4 axes x1y1 with yerrorbars") != std::string::npos);
-  CHECK(text.find("linespoints") == std::string::npos);
 }
 
 }  // namespace test_paper_registration

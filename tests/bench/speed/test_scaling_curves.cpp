@@ -15,6 +15,7 @@
 #include "speed/scaling/measure.hpp"
 #include "speed/scaling/plots.hpp"
 #include "speed/scaling/stages.hpp"
+#include "tools/plot/axis.hpp"
 
 namespace test_scaling_curves {
 namespace {
@@ -156,12 +157,23 @@ TEST_CASE("a file that is no list of curve points is refused by its name and wha
   CHECK_THROWS_WITH(read_curves("no/such.json"), "no/such.json: cannot open the file");
 }
 
-TEST_CASE("a plot's data: bases by range, one block for each series, no zeros") {
+TEST_CASE("a plot's data: axes that fit, the same series in both blocks, no zeros") {
   const std::string data = plot_data(two_series());
   CHECK(data ==
-        "curve = 'points'\nx_name = 'points'\nunit = 'ms'\nx_base = 10\ncost_base = 10\nmemory_base = 2\n"
+        "curve = 'points'\nx_name = 'points'\nunit = 'ms'\n"
+        "x_axis = 'set logscale x 10; set xrange [7585.78:1.31826e+07]; set xtics autofreq; "
+        "set xtics (10000, 1e+07); '\n"
+        "cost_axis = 'set logscale y 10; set yrange [0.378929:675.588]; set ytics autofreq; '\n"
+        "memory_axis = 'unset logscale y; set yrange [0.92:3.08]; set ytics autofreq; '\n"
         "$cost << END\n\"build\"\n10000 0.5\n1e+07 512\n\n\n\"kernel\"\n10000 2\n1e+07 4\n\n\nEND\n"
-        "$memory << END\n\"build\"\n10000 1\n1e+07 3\n\n\nEND\n");
+        "$memory << END\n\"build\"\n10000 1\n1e+07 3\n\n\n\"kernel\"\nNaN NaN\n\n\nEND\n");
+}
+
+TEST_CASE("an axis of positive values: linear, with three ticks a decade, or with decades, and nothing empty") {
+  CHECK(positive_axis("x", 4.0, 24.0) == "unset logscale x; set xrange [3.2:24.8]; set xtics autofreq; ");
+  CHECK(positive_axis("y", 10.0, 10.0) == "unset logscale y; set yrange [9:11]; set ytics autofreq; ");
+  CHECK(positive_axis("y", 1.5, 60.0).find("set ytics (2, 5, 10, 20, 50); ") != std::string::npos);
+  CHECK(positive_axis("y", 1.0, 100.0) == "set logscale y 10; set yrange [0.831764:120.226]; set ytics autofreq; ");
 }
 
 }  // namespace test_scaling_curves
