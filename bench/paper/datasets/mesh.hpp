@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/depth_image/image.hpp"
+#include "tools/input/image.hpp"
 
 namespace shortshot_bench::datasets {
 

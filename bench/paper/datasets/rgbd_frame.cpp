@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/depth_image/back_project.hpp"
+#include "tools/input/back_project.hpp"
 #include "tools/io/require_file.hpp"
 
 namespace shortshot_bench::datasets {

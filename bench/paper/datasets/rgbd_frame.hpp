@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/depth_image/pinhole_camera.hpp"
+#include "tools/input/pinhole_camera.hpp"
 #include "tools/io/rgbd_cloud.hpp"
 
 namespace shortshot_bench::datasets {

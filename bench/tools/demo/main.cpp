@@ -23,7 +23,6 @@
 #include "tools/demo/slow_stage.hpp"
 #include "tools/demo/text.hpp"
 #include "tools/io/input_error.hpp"
-#include "tools/io/repeated_points.hpp"
 #include "tools/io/view_of_cloud.hpp"
 #include "tools/io/write_descriptor_pcd.hpp"
 #include "tools/io/write_npy.hpp"
@@ -57,11 +56,10 @@ std::string channels_of(const RgbdCloud& cloud) {
 void print_note(const std::string& note) { std::printf("  note                %s\n", note.c_str()); }
 
 /// Before it is described: a refusal of the whole cloud is the better understood.
-void print_cloud(const RgbdCloud& cloud, double read_ms, std::size_t dropped) {
+void print_cloud(const RgbdCloud& cloud, double read_ms) {
   std::printf("  points              %zu (%zu x %zu), %zu valid, %s, in %.1f ms\n", cloud.size(), cloud.width,
               cloud.height, valid_points_of(cloud), channels_of(cloud).c_str(), read_ms);
   for (const std::string& note : cloud.notes) print_note(note);
-  if (dropped > 0) print_note(std::to_string(dropped) + " points of 0 0 0 left out");
 }
 
 std::size_t with_normal(const std::vector<shortshot::SurfaceNormal>& normals) {
@@ -169,9 +167,9 @@ void draw(const RgbdCloud& cloud, const std::string& file, const DemoOptions& op
   std::printf("  picture             %s\n", options.picture.c_str());
 }
 
-RgbdCloud read(const std::string& file, const DepthCamera& camera) {
+RgbdCloud read(const std::string& file, const InputOptions& options) {
   const SlowStage stage("reading");
-  return file.empty() ? make_tabletop() : read_input(file, camera);
+  return file.empty() ? make_tabletop() : read_input(file, options);
 }
 
 /// 0: described; 1: --check found a difference, or --diagnose something wrong; 2: bad input, said on stderr.
@@ -183,11 +181,10 @@ int demonstrate(const std::string& file, DemoOptions options) {
       throw std::runtime_error("--out would overwrite the cloud itself");
     }
     const Stopwatch reading;
-    RgbdCloud cloud = read(file, options.camera);
+    const RgbdCloud cloud = read(file, options.input);
     const double read_ms = reading.elapsed_ms();
-    const std::size_t dropped = options.drop_zeros ? drop_zeros(cloud) : 0;
     std::printf("%s\n", generated ? "generated tabletop scene" : file.c_str());
-    print_cloud(cloud, read_ms, dropped);
+    print_cloud(cloud, read_ms);
     std::fflush(stdout);  // before what stderr may say
     if (options.diagnose) return print_diagnosis(cloud, options) ? 0 : 1;
     choose_lengths(cloud, options);

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tools/depth_image/options.hpp"
+#include "tools/input/options.hpp"
 
 namespace shortshot_bench {
 bool parse_options(int argc, const char* const* argv, DemoOptions& options, int& exit_code) {
@@ -10,7 +10,7 @@ bool parse_options(int argc, const char* const* argv, DemoOptions& options, int&
       "Describe the key points of RGB-D point clouds; without a file, of a tabletop scene made up on the spot.");
   app.name("demo");
   app.add_option("clouds", options.clouds, "PCD or PLY files, or DEPTH.png[,COLOR.png]");
-  add_camera_options(app, options.camera);
+  add_input_options(app, options.input);
   app.add_option(
          "--descriptor", options.descriptor,
          "shapecolor95, shapecolor32, roomcolor95, heightshape96, colorrings27 (compact); ssh32, ssh96, scsh336, "
@@ -43,7 +43,6 @@ bool parse_options(int argc, const char* const* argv, DemoOptions& options, int&
          "PNG file to draw, of one cloud with its key points, or two views of the generated scene; - draws none")
       ->capture_default_str();
   app.add_flag("--towards-camera", options.towards_camera, "turn the frames' z axes towards the camera");
-  app.add_flag("--drop-zeros", options.drop_zeros, "leave out points of (0, 0, 0)");
   app.add_flag(
       "--check", options.check,
       "compare all searches (large clouds: a sample of brute force), and 1, 2 and 3 threads: exit 1 if a bit differs");

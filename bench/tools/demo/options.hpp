@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "tools/depth_image/read_input.hpp"
+#include "tools/input/read_input.hpp"
 
 namespace shortshot_bench {
 
 struct DemoOptions {
   std::vector<std::string> clouds;  // files; empty: the generated tabletop
-  DepthCamera camera;
+  InputOptions input;
   std::string descriptor = "scsh336";
   float radius = 0.04f;  // of the generated scene; of a file's cloud what is suggested, where none is asked for
   std::optional<float> normal_radius;  // of the normals, where it needs them; the file's, or a quarter of the radius
@@ -25,7 +25,6 @@ struct DemoOptions {
   std::string picture;  // of two views that are matched, or of the cloud with its key points; empty: none
   bool towards_camera = false;
   bool check = false;
-  bool drop_zeros = false;      // points of (0, 0, 0) are no measurements
   std::size_t brute_share = 1;  // brute force looks at one neighborhood in so many, a grid at the others
   bool diagnose = false;        // in place of describing
 };

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tools/depth_image/options.hpp"
+#include "tools/input/options.hpp"
 #include "tools/io/threads_option.hpp"
 
 namespace shortshot_bench {
@@ -14,7 +14,7 @@ bool parse_match_options(int argc, const char* const* argv, MatchCommand& comman
       "input.");
   app.name("match");
   app.add_option("clouds", command.clouds, "A and B: PCD or PLY files, or DEPTH.png[,COLOR.png]");
-  add_camera_options(app, command.camera);
+  add_input_options(app, command.input);
   app.add_option("--whole", command.whole,
                  "a, b or both: shows an object from all sides; its frames look outwards, in place of at a camera")
       ->check(CLI::IsMember({"a", "b", "both"}));

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "tools/depth_image/read_input.hpp"
+#include "tools/input/read_input.hpp"
 #include "tools/match/match.hpp"
 
 namespace shortshot_bench {
 
 struct MatchCommand {
   std::vector<std::string> clouds;  // A and B; none: two generated views
-  DepthCamera camera;
+  InputOptions input;
   std::string whole;  // "a", "b", "both": an object from all sides
   MatchOptions match;
   std::string out = "match";  // OUT.png, OUT-moved.png, OUT-pose.txt

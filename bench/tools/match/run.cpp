@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "tools/depth_image/read_input.hpp"
+#include "tools/input/read_input.hpp"
 #include "tools/io/binary_file.hpp"
 #include "tools/io/view_of_cloud.hpp"
 #include "tools/match/match.hpp"
@@ -34,7 +34,7 @@ void write_files(const MatchCommand& command, const NamedCloud& a, const NamedCl
 }
 
 RgbdCloud read_side(const MatchCommand& command, std::size_t side) {
-  RgbdCloud cloud = read_input(command.clouds[side], command.camera);
+  RgbdCloud cloud = read_input(command.clouds[side], command.input);
   cloud.is_whole = command.whole == "both" || command.whole == (side == 0 ? "a" : "b");
   return cloud;
 }
@@ -42,6 +42,7 @@ RgbdCloud read_side(const MatchCommand& command, std::size_t side) {
 void print_cloud(char letter, const NamedCloud& named) {
   const RgbdCloud& cloud = named.cloud;
   std::printf("%c: %s, %zu points\n", letter, named.name.c_str(), cloud.size());
+  for (const std::string& note : cloud.notes) std::printf("note: %s\n", note.c_str());
   if (cloud.is_whole || !surrounds_its_viewpoint(cloud)) return;
   std::printf("note: %c lies around its viewpoint: if it shows an object from all sides, say so with --whole\n",
               letter);

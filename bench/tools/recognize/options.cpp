@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tools/depth_image/options.hpp"
+#include "tools/input/options.hpp"
 #include "tools/io/threads_option.hpp"
 
 namespace shortshot_bench {
@@ -41,7 +41,7 @@ bool parse_recognize_options(int argc, const char* const* argv, RecognizeCommand
       ->capture_default_str();
   recognize->add_flag("--quiet", command.quiet, "the name alone, or nothing, and no picture");
   for (CLI::App* const verb : {learn, recognize}) {
-    add_camera_options(*verb, command.camera);
+    add_input_options(*verb, command.input);
     add_threads_option(*verb, command.threads);
   }
   exit_code = 0;

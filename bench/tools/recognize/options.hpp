@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/depth_image/read_input.hpp"
+#include "tools/input/read_input.hpp"
 
 namespace shortshot_bench {
 
@@ -14,7 +14,7 @@ struct RecognizeCommand {
   std::string model;                // file
   std::string name;                 // learn: of the object
   std::vector<std::string> clouds;  // one each of the object; recognize: one
-  DepthCamera camera;
+  InputOptions input;
   float radius = 0.0f;     // learn, of a new model; 0: suggested for the first cloud
   bool is_whole = false;   // learn: the clouds show the object from all sides
   double expected = 0.01;  // recognize: as match has it

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "shortshot/shortshot.hpp"
-#include "tools/depth_image/read_input.hpp"
+#include "tools/input/read_input.hpp"
 #include "tools/io/input_error.hpp"
 #include "tools/picture/marks.hpp"
 #include "tools/recognize/objects.hpp"
@@ -36,6 +36,10 @@ void about(const std::string& file, const Work& work) {
   } catch (const std::runtime_error& error) {
     throw InputError::about(file, error.what());
   }
+}
+
+void print_notes(const RgbdCloud& cloud) {
+  for (const std::string& note : cloud.notes) std::printf("note: %s\n", note.c_str());
 }
 
 void print(const shortshot::Recognizer& recognizer, const std::vector<Recognized>& all, std::size_t keypoints) {
@@ -79,7 +83,8 @@ void run_learn(const RecognizeCommand& command) {
   const bool is_new = !std::filesystem::exists(command.model);
   shortshot::Recognizer recognizer = is_new ? shortshot::Recognizer{} : load_model(command.model);
   for (std::size_t i = 0; i < command.clouds.size(); ++i) {
-    RgbdCloud cloud = read_input(command.clouds[i], command.camera);
+    RgbdCloud cloud = read_input(command.clouds[i], command.input);
+    print_notes(cloud);
     cloud.is_whole = command.is_whole;
     about(command.clouds[i], [&] {
       if (is_new && i == 0) {
@@ -97,7 +102,7 @@ void run_learn(const RecognizeCommand& command) {
 bool run_recognize(const RecognizeCommand& command) {
   const shortshot::Recognizer recognizer = load_model(command.model);
   const std::string& file = command.clouds.front();
-  const RgbdCloud cloud = read_input(file, command.camera);
+  const RgbdCloud cloud = read_input(file, command.input);
   shortshot::Features<ObjectDescriptor> features;
   std::vector<Recognized> all;
   about(file, [&] {
@@ -111,6 +116,7 @@ bool run_recognize(const RecognizeCommand& command) {
     if (is_known) std::printf("%s\n", name.c_str());
     return is_known;
   }
+  print_notes(cloud);
   std::printf("%s: %zu key points within %g\n", file.c_str(), features.size(),
               static_cast<double>(radius_of(recognizer)));
   print(recognizer, all, features.size());

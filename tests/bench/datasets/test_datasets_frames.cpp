@@ -9,7 +9,7 @@
 
 #include "dataset_samples.hpp"
 #include "paper/datasets/pair_sets.hpp"
-#include "tools/depth_image/image.hpp"
+#include "tools/input/image.hpp"
 
 namespace test_datasets_frames {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "dataset_samples.hpp"
-#include "tools/depth_image/pinhole_camera.hpp"
-#include "tools/depth_image/read_input.hpp"
+#include "tools/input/pinhole_camera.hpp"
+#include "tools/input/read_input.hpp"
 #include "tools/match/match.hpp"
 #include "tools/scene/tabletop.hpp"
 
@@ -20,7 +20,7 @@ using namespace shortshot_bench;
 
 constexpr auto matrix = "2 0 1\n0 4 0.5\n0 0 1\n";
 
-DepthCamera camera_of(const std::string& intrinsics, double unit = 0.001) { return {intrinsics, unit}; }
+InputOptions camera_of(const std::string& intrinsics, double unit = 0.001) { return {intrinsics, unit, false}; }
 
 std::string color_png(const RgbdCloud& cloud) {
   return png(std::string(cloud.rgb.begin(), cloud.rgb.end()), cloud.width, cloud.height, 8, PngColor::rgb);
@@ -63,6 +63,14 @@ TEST_CASE("a depth image becomes an organized cloud, with colors if there is an 
   CHECK(colored.xyz[2] == 2.0f);
   folder.add("a,b.pcd", pcd_at(3.0f));  // a name that has a comma
   CHECK(read_input(folder.path("a,b.pcd"), {}).xyz[0] == 3.0f);
+  folder.add("zeros.ply",
+             "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
+             "property float z\nend_header\n1 2 3\n0 0 0\n");
+  InputOptions drop;
+  drop.drop_zeros = true;
+  const RgbdCloud rest = read_input(folder.path("zeros.ply"), drop);
+  CHECK(std::isnan(rest.xyz[3]));
+  CHECK(rest.notes.back() == "1 points of 0 0 0 left out");
 }
 
 TEST_CASE("images and cameras that cannot be used are named") {

@@ -3,17 +3,18 @@
 
 #include <CLI/CLI.hpp>
 
-#include "tools/depth_image/read_input.hpp"
+#include "tools/input/read_input.hpp"
 #include "tools/io/finite_and_positive.hpp"
 
 namespace shortshot_bench {
 
-inline void add_camera_options(CLI::App& app, DepthCamera& camera) {
-  app.add_option("--camera", camera.intrinsics,
+inline void add_input_options(CLI::App& app, InputOptions& options) {
+  app.add_option("--camera", options.intrinsics,
                  "of depth images: FX,FY,CX,CY in pixels, or a file with the rows fx 0 cx, 0 fy cy, 0 0 1");
-  app.add_option("--depth-unit", camera.unit, "of depth images: meters in a count of their 16 bits")
+  app.add_option("--depth-unit", options.unit, "of depth images: meters in a count of their 16 bits")
       ->check(finite_and_positive)
       ->capture_default_str();
+  app.add_flag("--drop-zeros", options.drop_zeros, "leave out points of (0, 0, 0)");
 }
 
 }  // namespace shortshot_bench

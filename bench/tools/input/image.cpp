@@ -1,4 +1,4 @@
-#include "tools/depth_image/image.hpp"
+#include "tools/input/image.hpp"
 
 #include <memory>
 

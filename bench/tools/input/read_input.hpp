@@ -7,15 +7,16 @@
 
 namespace shortshot_bench {
 
-/// What a depth image does not say of itself.
-struct DepthCamera {
-  std::string intrinsics;  // FX,FY,CX,CY, or a file with the matrix; empty: not given
-  double unit = 0.001;     // meters in a count of the image
+/// What files do not say of themselves.
+struct InputOptions {
+  std::string intrinsics;   // of depth images: FX,FY,CX,CY, or a file with the matrix; empty: not given
+  double unit = 0.001;      // meters in a count of a depth image
+  bool drop_zeros = false;  // points of (0, 0, 0) are no measurements
 };
 
 /// A PCD or PLY file, "DEPTH.png", or "DEPTH.png,COLOR.png" (a JPEG, too); a PNG file is told by its content. Throws
 /// InputError, also for a depth image without intrinsics.
-RgbdCloud read_input(const std::string& input, const DepthCamera& camera);
+RgbdCloud read_input(const std::string& input, const InputOptions& options);
 
 /// What a picture calls it: the name of the cloud's or the depth image's file, without its folder.
 std::string name_of_input(const std::string& input);

@@ -1,4 +1,4 @@
-#include "tools/depth_image/pinhole_camera.hpp"
+#include "tools/input/pinhole_camera.hpp"
 
 #include <cmath>
 #include <cstdio>

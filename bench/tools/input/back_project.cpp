@@ -1,4 +1,4 @@
-#include "tools/depth_image/back_project.hpp"
+#include "tools/input/back_project.hpp"
 
 #include <cstddef>
 #include <cstdint>

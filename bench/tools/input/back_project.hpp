@@ -1,8 +1,8 @@
 // Depth images as clouds.
 #pragma once
 
-#include "tools/depth_image/image.hpp"
-#include "tools/depth_image/pinhole_camera.hpp"
+#include "tools/input/image.hpp"
+#include "tools/input/pinhole_camera.hpp"
 #include "tools/io/rgbd_cloud.hpp"
 
 namespace shortshot_bench {
