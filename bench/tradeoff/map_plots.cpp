@@ -4,8 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "paper/campaign/plot.hpp"
-
 namespace shortshot_bench::tradeoff {
 namespace {
 
@@ -60,9 +58,12 @@ campaign::Plot plot_of(const Map& map, CostOf cost, const std::string& label) {
 
 }  // namespace
 
+campaign::Plot score_by_bytes(const Map& map) { return plot_of(map, bytes_of, "size, bytes"); }
+campaign::Plot score_by_time(const Map& map) { return plot_of(map, time_of, "time, microseconds per key point"); }
+
 void draw_scores(const Map& map, const std::string& directory) {
-  campaign::write_svg(plot_of(map, bytes_of, "size, bytes"), directory + "/score_by_bytes.svg");
-  campaign::write_svg(plot_of(map, time_of, "time, microseconds per key point"), directory + "/score_by_time.svg");
+  campaign::write_svg(score_by_bytes(map), directory + "/score_by_bytes.svg");
+  campaign::write_svg(score_by_time(map), directory + "/score_by_time.svg");
 }
 
 }  // namespace shortshot_bench::tradeoff

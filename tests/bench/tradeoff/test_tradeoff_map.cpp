@@ -5,10 +5,12 @@
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "paper/campaign/atomic_file.hpp"
 #include "tradeoff/map.hpp"
+#include "tradeoff/map_plots.hpp"
 #include "tradeoff/options.hpp"
 
 namespace test_tradeoff_map {
@@ -113,6 +115,25 @@ TEST_CASE("figures of microcontrollers are found by the configuration's name") {
   CHECK(entry(map, "large").board.flash_bytes > 1000.0);
   CHECK(entry(map, "large").board.instructions_per_neighbor > 100.0);
   CHECK(entry(map, "small").board.flash_bytes == 0.0);
+}
+
+TEST_CASE("entries are points; only what is best so far is joined, and never falls") {
+  Map map;
+  for (const auto& [bytes, score] : {std::pair(8u, 0.7), {16u, 0.5}, {32u, 1.5}, {64u, 0.0}, {96u, 1.2}}) {
+    Entry& entry = map.entries.emplace_back();
+    entry.size_bytes = bytes;
+    entry.cost.microseconds = 104.0 - bytes;
+    entry.score = score;
+  }
+  const campaign::Plot by_bytes = score_by_bytes(map);
+  REQUIRE(by_bytes.series.size() == 4);
+  for (std::size_t kind = 0; kind < 3; ++kind) CHECK(by_bytes.series[kind].marks == campaign::Marks::points);
+  CHECK(by_bytes.series[0].xs == std::vector<double>{8.0, 16.0, 32.0, 96.0});  // without the one that has no score
+  CHECK(by_bytes.series[3].marks == campaign::Marks::steps);
+  CHECK(by_bytes.series[3].xs == std::vector<double>{8.0, 32.0, 96.0});
+  CHECK(by_bytes.series[3].ys == std::vector<double>{0.7, 1.5, 1.5});
+  CHECK(score_by_time(map).series[3].xs == std::vector<double>{8.0, 72.0, 96.0});
+  CHECK(score_by_time(map).series[3].ys == std::vector<double>{1.2, 1.5, 1.5});
 }
 
 TEST_CASE("the report has the map and every measure, and draws the plots") {
