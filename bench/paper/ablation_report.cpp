@@ -72,7 +72,7 @@ double accuracy(const ByObject& values) { return 100.0 * over_objects(values).va
 double least_percent(const std::vector<campaign::Series>& series) {
   double least = 90.0;
   for (const campaign::Series& s : series) {
-    for (const double y : s.ys) least = std::min(least, 10.0 * std::floor(y / 10.0));
+    for (const double y : s.ys) least = std::min(least, 5.0 * std::floor(y / 5.0));
   }
   return least;
 }

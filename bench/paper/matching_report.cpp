@@ -216,7 +216,10 @@ campaign::Plot plot_of_pairs(const SetResults& set, const std::string& label, co
 }
 
 std::vector<std::string> draw(const SetResults& set, const std::string& prefix, const std::string& directory) {
-  campaign::Plot errors = plot_of_pairs(set, "T_diff", "the error of a pose (equation 9)", median_t_diff);
+  campaign::Plot errors = plot_of_pairs(
+      set, "T_diff",
+      "the error of a pose (equation 9); " + std::to_string(static_cast<int>(t_diff_if_lost)) + " where none was found",
+      median_t_diff);
   errors.y.logarithmic = true;
   campaign::Plot inliers = plot_of_pairs(set, "C_rk", "the share of inliers of all key points", c_rk);
   inliers.y.min = 0.0;

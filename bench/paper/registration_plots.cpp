@@ -40,7 +40,7 @@ campaign::Plot plot_of_recalls(const RegistrationSet& set) {
   plot.title = set.name + ": poses near the true one, with 95 % intervals";
   plot.x.label = "share of all poses";
   plot.y = campaign::axis_of_names(names);
-  plot.height = 130 + row_height * static_cast<int>(names.size());
+  plot.height = 170 + row_height * static_cast<int>(names.size());
   const std::pair<const char*, const PairFigure*> recalls[] = {{"15 degrees, 30 cm", &pair_figures::within_30cm},
                                                                {"5 degrees, 10 cm", &pair_figures::within_10cm},
                                                                {"5 degrees, 2 cm", &pair_figures::within_2cm}};
