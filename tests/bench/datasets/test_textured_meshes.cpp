@@ -19,7 +19,7 @@ using namespace cube_scan;
 }  // namespace
 
 TEST_CASE("textures are blended between pixel centers, repeat, and have v upwards") {
-  const ColorImage texture{2, 2, {0, 0, 0, 100, 0, 0, 0, 200, 0, 100, 200, 40}};
+  const shortshot_bench::ColorImage texture{2, 2, {0, 0, 0, 100, 0, 0, 0, 200, 0, 100, 200, 40}};
   const auto is_at = [&](double u, double v, const Vec3& color) {
     return (texture_color(texture, {u, v}) - color).norm() < 1e-9;
   };
