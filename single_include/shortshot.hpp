@@ -14909,10 +14909,10 @@ inline namespace SHORTSHOT_TYPES {
 /// taken from the cloud, so that two clouds are described alike. A radius of 0 asks for what suggest() says of this
 /// one.
 struct CloudOptions {
-  float radius = 0.04f;       ///< of the support, in meters; 0: suggested
-  float leaf = 0.02f;         ///< one key point in each occupied voxel of that many meters: its points' centroid; 0:
-                              ///< half the radius
-  float frame_radius = 0.0f;  ///< of the local reference frame, in meters; 0: the support's
+  float radius = 0.04f;       ///< of the support, in the cloud's unit: meters; 0: suggested
+  float leaf = 0.0f;          ///< one key point in each occupied voxel of that size, its points' centroid; 0: half the
+                              ///< radius
+  float frame_radius = 0.0f;  ///< of the local reference frame; 0: the support's
   float best_frames = 1.0f;   ///< above 0, at most 1: share of the key points that is kept, those with surest frames
   Viewpoint viewpoint;        ///< turns the frames' z; Viewpoint::towards({0, 0, 0}): a camera at the origin
   unsigned threads = 1;       ///< that share the work
@@ -19376,7 +19376,8 @@ inline namespace SHORTSHOT_CODE {
 template <class Matrix>
 struct EigenPoints {
   static constexpr bool columns = Matrix::RowsAtCompileTime == 3;
-  static_assert(columns || Matrix::ColsAtCompileTime == 3, "Eigen views support 3 x N and N x 3 matrices and maps");
+  static_assert(columns || Matrix::ColsAtCompileTime == 3,
+                "Eigen views support 3 x N and N x 3 matrices and maps, with the 3 in their types, as in Matrix3Xf");
 
   [[nodiscard]] static std::size_t count(const Matrix& m) noexcept {
     return static_cast<std::size_t>(columns ? m.cols() : m.rows());

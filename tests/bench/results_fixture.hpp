@@ -46,7 +46,7 @@ inline std::string registration_set(const std::string& name, double right, doubl
   set << R"({"set": ")" << name << R"(", "pairs": 9, "rows": [)";
   bool is_first = true;
   for (const char* form : {"cshot1344", "shot352", "scsh336", "ssh32", "shapecolor95-4bit", "shapecolor32-4bit",
-                           "heightshape96-4bit", "fpfh-open3d"}) {
+                           "heightshape96-4bit", "fpfh-open3d-root"}) {
     set << (is_first ? "" : ", ") << R"({"descriptor": ")" << form << R"(", "bytes": 95, "inlier ratio": ")"
         << (is_first ? 0.5 : right) << R"( [0.1, 0.9]", "RR 5 deg 10 cm": ")" << poses
         << R"( [0.1, 0.9]", "RR 5 deg 2 cm": "0.25 [0.1, 0.9]"})";

@@ -187,8 +187,8 @@ std::string firmware_headline(const std::string& path, const Json& json) {
     const Json& compact = row_of(json, path, "O2", configuration, "compact");
     const double stack = fast.at("stack_outside_chunk").get<double>() + fast.at("chunk_bytes").get<double>();
     table.add({configuration, figure(small, "flash_brute") + " B", whole(stack) + " B",
-               figure(fast, "workspace_bytes_per_neighbor") + " or " + figure(compact, "workspace_bytes_per_neighbor") +
-                   " B a neighbor",
+               figure(fast, "workspace_bytes_per_neighbor") + " B a neighbor, compact " +
+                   figure(compact, "workspace_bytes_per_neighbor"),
                figure(fast, "work_per_neighbor") + " a neighbor + " + figure(fast, "work_fixed")});
   }
   return table.markdown() + recognition_headline(json);

@@ -72,17 +72,17 @@ void print_result(const RgbdCloud& cloud, const DemoOptions& options, const Demo
   const double bytes = 4.0 * static_cast<double>(result.size);
   const double sum = std::accumulate(result.neighbors.begin(), result.neighbors.end(), 0.0);
   const auto [least, most] = std::minmax_element(result.neighbors.begin(), result.neighbors.end());
-  std::printf("  key points          %zu, one per %g m voxel, in %.1f ms\n", keypoints,
+  std::printf("  key points          %zu, one per voxel of %g, in %.1f ms\n", keypoints,
               static_cast<double>(options.leaf), result.sample_ms);
   if (result.normals_of_file) {
     std::printf("  normals             %zu of the file; --normal-radius R estimates them\n",
                 with_normal(result.normals));
   } else if (!result.normals.empty()) {
-    std::printf("  normals             %zu points within %g m, in %.1f ms\n", with_normal(result.normals),
+    std::printf("  normals             %zu points within %g, in %.1f ms\n", with_normal(result.normals),
                 static_cast<double>(normal_radius(options)), result.normals_ms);
   }
   std::printf("  index               %s, in %.1f ms\n", options.search.c_str(), result.index_ms);
-  std::printf("  neighbors          %.0f per key point within %g m (%u to %u)\n", sum / static_cast<double>(keypoints),
+  std::printf("  neighbors          %.0f per key point within %g (%u to %u)\n", sum / static_cast<double>(keypoints),
               static_cast<double>(options.radius), *least, *most);
   std::printf("  describe            %s, %u thread%s, in %.1f ms: %.1f us per key point\n", options.descriptor.c_str(),
               options.threads, options.threads == 1 ? "" : "s", result.describe_ms,
@@ -109,11 +109,11 @@ void write_result(const RgbdCloud& cloud, const DemoOptions& options, const Demo
       positions.push_back({cloud.xyz[3 * i], cloud.xyz[3 * i + 1], cloud.xyz[3 * i + 2]});
     }
     std::vector<std::string> comments = {options.descriptor + ", radius " + std::to_string(options.radius) +
-                                         " m, L2 norm 1 (all zeros: not described); parts one after the other:"};
+                                         ", L2 norm 1 (all zeros: not described); parts one after the other:"};
     if (result.normals_of_file) {
       comments.insert(comments.begin(), "normals of the cloud's file");
     } else if (!result.normals.empty()) {
-      comments.insert(comments.begin(), "normals within " + std::to_string(normal_radius(options)) + " m");
+      comments.insert(comments.begin(), "normals within " + std::to_string(normal_radius(options)));
     }
     if (cloud.is_shifted()) {
       comments.insert(comments.begin(), "x y z are from the origin " + std::to_string(cloud.origin[0]) + " " +
@@ -160,7 +160,7 @@ void draw(const RgbdCloud& cloud, const std::string& file, const DemoOptions& op
       marked.dots.push_back({cloud.xyz[3 * i], cloud.xyz[3 * i + 1], cloud.xyz[3 * i + 2]});
     }
     marked.title = std::to_string(result.keypoints.size()) + " key points, each described within " +
-                   text("%g m", static_cast<double>(options.radius));
+                   text("%g", static_cast<double>(options.radius));
     marked.legend = marked.dots.size() > 800 ? "dots: some of the key points" : "dots: key points";
     draw_marked({name_of_input(file), cloud}, marked, width).write_png(options.picture);
   }

@@ -43,6 +43,7 @@ bool parse_options(int argc, const char* const* argv, DemoOptions& options, int&
          "PNG file to draw, of one cloud with its key points, or two views of the generated scene; - draws none")
       ->capture_default_str();
   app.add_flag("--towards-camera", options.towards_camera, "turn the frames' z axes towards the camera");
+  app.add_flag("--drop-zeros", options.input.drop_zeros, "leave out points of (0, 0, 0)");
   app.add_flag(
       "--check", options.check,
       "compare all searches (large clouds: a sample of brute force), and 1, 2 and 3 threads: exit 1 if a bit differs");

@@ -14,7 +14,6 @@ inline void add_input_options(CLI::App& app, InputOptions& options) {
   app.add_option("--depth-unit", options.unit, "of depth images: meters in a count of their 16 bits")
       ->check(finite_and_positive)
       ->capture_default_str();
-  app.add_flag("--drop-zeros", options.drop_zeros, "leave out points of (0, 0, 0)");
 }
 
 }  // namespace shortshot_bench

@@ -45,8 +45,7 @@ RgbdCloud read_input(const std::string& input, const InputOptions& options) {
   const std::size_t comma = comma_in(input);
   const bool is_image = comma != std::string::npos || is_png(input);
   RgbdCloud cloud = is_image ? read_images(input, comma, options) : read_cloud(input);
-  const std::size_t dropped = options.drop_zeros ? drop_zeros(cloud) : 0;
-  if (dropped > 0) cloud.notes.push_back(std::to_string(dropped) + " points of 0 0 0 left out");
+  if (options.drop_zeros) drop_zeros(cloud);
   return cloud;
 }
 

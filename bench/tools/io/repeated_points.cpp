@@ -55,6 +55,8 @@ double share_of_repeated(const RgbdCloud& cloud) {
   return (all - static_cast<double>(apart)) / all;
 }
 
+constexpr const char* advice = ": --drop-zeros leaves them out";
+
 std::string percent(double share) {
   char text[32];
   std::snprintf(text, sizeof text, "%.*f %%", share < 0.0995 ? 2 : 0, 100 * share);
@@ -78,6 +80,15 @@ std::size_t drop_zeros(RgbdCloud& cloud) {
     std::fill_n(&cloud.xyz[3 * point], 3, std::numeric_limits<float>::quiet_NaN());
     ++dropped;
   }
+  if (dropped == 0) return 0;
+  const std::string done = std::to_string(dropped) + " points of 0 0 0 left out";
+  const auto note = std::find_if(cloud.notes.begin(), cloud.notes.end(),
+                                 [](const std::string& text) { return text.find(advice) != std::string::npos; });
+  if (note == cloud.notes.end()) {
+    cloud.notes.push_back(done);
+  } else {
+    *note = done;
+  }
   return dropped;
 }
 
@@ -86,7 +97,7 @@ void note_repeated_points(RgbdCloud& cloud) {
   if (zeros > 0) {
     cloud.notes.push_back(std::to_string(zeros) + " of " + std::to_string(cloud.size()) + " points (" +
                           percent(static_cast<double>(zeros) / static_cast<double>(cloud.size())) +
-                          ") are 0 0 0, which often means \"no measurement\": --drop-zeros leaves them out");
+                          ") are 0 0 0, which often means \"no measurement\"" + advice);
   }
   const double repeated = share_of_repeated(cloud);
   if (repeated >= many) {

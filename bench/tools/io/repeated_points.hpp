@@ -10,7 +10,7 @@ namespace shortshot_bench {
 /// How many points of the file are (0, 0, 0), which is what some sensors write where they have measured nothing.
 std::size_t count_zeros(const RgbdCloud& cloud);
 
-/// Makes them points that are not measured, NaN; returns how many.
+/// Makes them points that are not measured, NaN, and says so in a note; returns how many.
 std::size_t drop_zeros(RgbdCloud& cloud);
 
 /// Adds a note where there are points of (0, 0, 0), and one where many others share their place with another point.

@@ -15,6 +15,7 @@ bool parse_match_options(int argc, const char* const* argv, MatchCommand& comman
   app.name("match");
   app.add_option("clouds", command.clouds, "A and B: PCD or PLY files, or DEPTH.png[,COLOR.png]");
   add_input_options(app, command.input);
+  command.input.drop_zeros = true;  // a heap of points in one place would be a surface to the refinement
   app.add_option("--whole", command.whole,
                  "a, b or both: shows an object from all sides; its frames look outwards, in place of at a camera")
       ->check(CLI::IsMember({"a", "b", "both"}));

@@ -96,7 +96,7 @@ RgbdCloud part_around(const RgbdCloud& cloud, const RgbdCloud& other) {
 
 std::string verdict_of(const MatchResult& result) {
   char text[200];
-  std::snprintf(text, sizeof text, "%s: %zu of %zu pairs agree, at %zu of %zu places (by chance: 1e%+.0f such poses)",
+  std::snprintf(text, sizeof text, "%s: %zu of %zu pairs agree, at %zu of %zu places (by chance: 10^%.0f such poses)",
                 result.is_found ? "found" : "NOT FOUND", result.inliers.size(), result.rows.size(),
                 result.chance.at.any, result.chance.at.places, result.chance.log10_expected);
   return text;
@@ -126,10 +126,11 @@ Canvas draw_matches(const NamedCloud& a, const NamedCloud& b, const MatchResult&
   const auto some = [&](std::size_t all) {
     return (all > most ? std::to_string(most) + " of " : "") + std::to_string(all);
   };
-  canvas.text_that_fits(layout.legend, layout.text,
-                        "strong green lines: " + some(inliers.size()) + " pairs that agree; thin gray lines: " +
-                            some(others.size()) + " that do not; dots: key points",
-                        black);
+  const std::string lines = result.is_found
+                                ? "strong green lines: " + some(inliers.size()) +
+                                      " pairs that agree; thin gray lines: " + some(others.size()) + " that do not"
+                                : "thin gray lines: " + some(others.size()) + " pairs";
+  canvas.text_that_fits(layout.legend, layout.text, lines + "; dots: some of the key points", black);
   return canvas;
 }
 
@@ -152,12 +153,12 @@ Canvas draw_moved(const NamedCloud& a, const NamedCloud& b, const MatchResult& r
   const RgbdCloud part_of_b = part_around(onto, a.cloud);
   draw(layout.right, side, part_of_a, part_of_b, part_of_a.size() < part_of_b.size() ? part_of_a : part_of_b);
   char text[200];
-  std::snprintf(text, sizeof text, "B moved onto A: turned by %.1f degrees; %.0f %% of B lies on A, within %.2g m",
+  std::snprintf(text, sizeof text, "B moved onto A: turned by %.1f degrees; %.0f %% of B lies on A, %.2g off (RMS)",
                 degrees_of(result.pose), 100.0 * static_cast<double>(result.fit.share),
                 static_cast<double>(result.fit.deviation));
   canvas.text_that_fits(layout.title, 1.25f * layout.text, text, black);
   canvas.text_that_fits(layout.left_name, layout.text, "as A is seen", black);
-  canvas.text_that_fits(layout.right_name, layout.text, "from the side, 60 degrees: what is there in both", black);
+  canvas.text_that_fits(layout.right_name, layout.text, "turned by 60 degrees: what both show", black);
   canvas.text_that_fits(layout.legend, layout.text, "light orange: A, " + a.name + "; dark blue: B, " + b.name, black);
   return canvas;
 }

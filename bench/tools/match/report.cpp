@@ -11,14 +11,14 @@ namespace {
 double number(float v) { return static_cast<double>(v); }
 
 void print_pose(const MatchResult& result) {
-  std::printf("  inliers             %zu within %.2g m, %.2g x %.2g x %.2g m large (standard deviations)\n",
+  std::printf("  inliers             %zu within %.2g, %.2g x %.2g x %.2g large (standard deviations)\n",
               result.inliers.size(), number(result.reach), number(result.extent[0]), number(result.extent[1]),
               number(result.extent[2]));
   std::printf(
-      "  by chance           1e%+.1f poses as good: a wrong pair agrees with a probability of %.2g; of %zu places "
+      "  by chance           10^%.1f poses as good: a wrong pair agrees with a probability of %.2g; of %zu places "
       "that\n",
       result.chance.log10_expected, result.chance.agreement, result.chance.at.places);
-  std::printf("  %-19s are %.2g m apart the pair that is most alike agrees at %zu, and any one at %zu\n", "",
+  std::printf("  %-19s are %.2g apart the pair that is most alike agrees at %zu, and any one at %zu\n", "",
               number(result.radius), result.chance.at.nearest, result.chance.at.any);
 }
 
@@ -37,15 +37,15 @@ std::string pose_text(const shortshot::Pose& pose) {
 }
 
 void print_report(const MatchResult& result, double milliseconds) {
-  std::printf("  lengths             radius %g, leaf %g; points lie %.2g apart\n", number(result.radius),
-              number(result.leaf), number(result.spacing));
+  std::printf("  lengths             in the clouds' unit: radius %g, leaf %g; points lie %.2g apart\n",
+              number(result.radius), number(result.leaf), number(result.spacing));
   std::printf("  key points          %zu in A, %zu in B, by %s\n", result.a.size(), result.b.size(),
               result.descriptor.c_str());
-  std::printf("  pairs               %zu that are each other's nearest, in %.0f ms with all else\n", result.rows.size(),
+  std::printf("  pairs               %zu that are each other's nearest; %.0f ms in all\n", result.rows.size(),
               milliseconds);
   if (result.inliers.size() >= 3) print_pose(result);
   if (result.is_found) {
-    std::printf("  refined             %.0f %% of B's points lie on A, %.2g m off (root mean square)\n",
+    std::printf("  refined             %.0f %% of B's points lie on A, %.2g off (root mean square)\n",
                 100.0 * number(result.fit.share), number(result.fit.deviation));
     std::printf("  pose                B is turned by %.1f degrees; A = pose * B:\n%s", degrees_of(result.pose),
                 pose_text(result.pose).c_str());

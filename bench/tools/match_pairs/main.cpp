@@ -78,7 +78,7 @@ void try_pair(const std::vector<datasets::PairSet>& sets, const PairToTry& pair,
     ++tally.wrong;
     outcome = "found: WRONG";
   }
-  std::printf("%-5s %-34s %5.1f deg  %4zu of %4zu pairs, %2zu of %3zu places, 1e%+.1f by chance: %s\n",
+  std::printf("%-5s %-34s %5.1f deg  %4zu of %4zu pairs, %2zu of %3zu places, 10^%.1f by chance: %s\n",
               pair.is_right ? "right" : "wrong", pair.name.c_str(), pair.rotation_deg, result.inliers.size(),
               result.rows.size(), result.chance.at.any, result.chance.at.places, result.chance.log10_expected,
               outcome.c_str());

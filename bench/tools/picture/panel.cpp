@@ -52,9 +52,9 @@ Color painted(Paint paint, float lightness) {
   return scaled({215, 215, 215}, 0.25f + 0.75f * lightness);
 }
 
-std::string with_unit(float length) {
+std::string length_text(float length) {
   char text[40];
-  std::snprintf(text, sizeof text, "%g m", static_cast<double>(length));
+  std::snprintf(text, sizeof text, "%g", static_cast<double>(length));
   return text;
 }
 
@@ -145,7 +145,7 @@ void Panel::draw_scale(float text_height) const {
   const Place right{left.x + pixels * length, left.y};
   canvas_.line(left, right, 5.0f, white);
   canvas_.line(left, right, 3.0f, black);
-  const std::string label = with_unit(length);
+  const std::string label = length_text(length);
   const Place corner{left.x, left.y - 1.3f * text_height};
   canvas_.fill({corner.x - 3.0f, corner.y - 3.0f, Canvas::text_width(text_height, label) + 6.0f, text_height + 3.0f},
                white);

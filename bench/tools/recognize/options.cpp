@@ -44,6 +44,7 @@ bool parse_recognize_options(int argc, const char* const* argv, RecognizeCommand
     add_input_options(*verb, command.input);
     add_threads_option(*verb, command.threads);
   }
+  command.input.drop_zeros = true;
   exit_code = 0;
   try {
     app.parse(argc, argv);

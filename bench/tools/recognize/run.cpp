@@ -45,7 +45,7 @@ void print_notes(const RgbdCloud& cloud) {
 void print(const shortshot::Recognizer& recognizer, const std::vector<Recognized>& all, std::size_t keypoints) {
   for (const Recognized& r : all) {
     const shortshot::Hypothesis& h = r.hypothesis;
-    std::printf("  %-20s score %.1f, %zu of %zu key points, at %.3g %.3g %.3g; by chance 1e%+.1f with as many\n",
+    std::printf("  %-20s score %.1f, %zu of %zu key points, at %.3g %.3g %.3g; by chance 10^%.1f with as many\n",
                 recognizer.class_name(h.object_class).c_str(), static_cast<double>(h.score), r.voters.size(), keypoints,
                 static_cast<double>(h.center.x), static_cast<double>(h.center.y), static_cast<double>(h.center.z),
                 r.log10_expected);
@@ -67,7 +67,7 @@ void draw(const picture::NamedCloud& cloud, const shortshot::Features<ObjectDesc
   marked.legend = "dots: key points";
   if (best != nullptr) {
     std::array<char, 120> text{};
-    std::snprintf(text.data(), text.size(), ": %zu of %zu key points voted for it (by chance: 1e%+.0f such objects)",
+    std::snprintf(text.data(), text.size(), ": %zu of %zu key points voted for it (by chance: 10^%.0f such objects)",
                   all, features.size(), best->log10_expected);
     marked.title += text.data();
     marked.legend += "; green: " + std::to_string(marked.marks.size()) + " of those that voted; cross: the center " +

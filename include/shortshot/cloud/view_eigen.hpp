@@ -17,7 +17,8 @@ inline namespace SHORTSHOT_CODE {
 template <class Matrix>
 struct EigenPoints {
   static constexpr bool columns = Matrix::RowsAtCompileTime == 3;
-  static_assert(columns || Matrix::ColsAtCompileTime == 3, "Eigen views support 3 x N and N x 3 matrices and maps");
+  static_assert(columns || Matrix::ColsAtCompileTime == 3,
+                "Eigen views support 3 x N and N x 3 matrices and maps, with the 3 in their types, as in Matrix3Xf");
 
   [[nodiscard]] static std::size_t count(const Matrix& m) noexcept {
     return static_cast<std::size_t>(columns ? m.cols() : m.rows());

@@ -115,7 +115,7 @@ TEST_CASE("the headline leaves out Open3D where it was not measured") {
   more += ", " + results_fixture::comparison("ShapeColor95", "Open3D FPFH", "O2", 2.0) + "]";
   project.write("bench/results/peers.json", more);
   CHECK(has(generate(project.root()).at(0).generated,
-            "| *Open3D:* FPFH | 95 | 1.00 | 0.50 | 50 % | 360 | 900 | 31.4 KB |\n"));
+            "| *Open3D:* FPFH, square roots | 95 | 1.00 | 0.50 | 50 % | 360 | 900 | 31.4 KB |\n"));
 }
 
 TEST_CASE("a descriptor without quality in a set with color is named, and a set that is malformed") {
@@ -146,8 +146,8 @@ TEST_CASE("what was generated is what is generated again") {
 TEST_CASE("firmware: the README's rows, and the page's tables") {
   const Project project;
   const std::vector<Document> documents = generate(project.root());
-  CHECK(
-      has(documents.at(0).generated, "| Scsh336 | 5100 B | 768 B | 20 or 20 B a neighbor | 555 a neighbor + 3210 |\n"));
+  CHECK(has(documents.at(0).generated,
+            "| Scsh336 | 5100 B | 768 B | 20 B a neighbor, compact 20 | 555 a neighbor + 3210 |\n"));
   const std::string& page = documents.at(2).generated;
   CHECK(has(page, "| less (goal missed) | 475 | 560 | 555 | Scsh336 on m7 |\n"));
   CHECK(has(page, "| m7 -O2, compact | 5100 | 1100 | | | 444 | 324 | 555 | | 3210 | | |\n"));

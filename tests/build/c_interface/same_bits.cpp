@@ -118,7 +118,7 @@ struct Both {
     ok(ss::describe_cloud(ss::with_normals(view, normals.data()), options, features));
     std::size_t count = 0;
     keypoints.resize(cloud.size());
-    ok(shortshot_sample_centroids(&c_cloud, options.leaf, keypoints.data(), keypoints.size(), &count));
+    ok(shortshot_sample_centroids(&c_cloud, 0.5f * options.radius, keypoints.data(), keypoints.size(), &count));
     rows.resize(count * shortshot_row_bytes(descriptor, SHORTSHOT_FLOATS));
     status.resize(count);
     frames.resize(count);

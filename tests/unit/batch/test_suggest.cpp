@@ -106,7 +106,7 @@ TEST_CASE("describe_cloud: a radius of 0 is what is suggested, a leaf of 0 half 
   CHECK(ss::describe_cloud(flat(1.0f, 1).view(), open, as_suggested) == Status::bad_radius);
   CHECK(as_suggested.size() == 0);
   CHECK(ss::CloudOptions{}.radius == 0.04f);  // two clouds are described alike unless their program asks for less
-  CHECK(ss::CloudOptions{}.leaf == 0.02f);
+  CHECK(ss::CloudOptions{}.leaf == 0.0f);
 }
 
 }  // namespace test_suggest
