@@ -7,11 +7,8 @@
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <filesystem>
 #include <numeric>
-#include <stdexcept>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include "shortshot/cloud/cloud.hpp"
@@ -176,10 +173,7 @@ RgbdCloud read(const std::string& file, const InputOptions& options) {
 int demonstrate(const std::string& file, DemoOptions options) {
   const bool generated = file.empty();
   try {
-    std::error_code not_there;
-    if (std::filesystem::equivalent(file, options.out, not_there)) {
-      throw std::runtime_error("--out would overwrite the cloud itself");
-    }
+    for (const std::string& output : {options.out, options.picture}) keep_input(file, output);
     const Stopwatch reading;
     const RgbdCloud cloud = read(file, options.input);
     const double read_ms = reading.elapsed_ms();

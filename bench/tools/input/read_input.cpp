@@ -1,8 +1,10 @@
 #include "tools/input/read_input.hpp"
 
 #include <array>
+#include <filesystem>
 #include <fstream>
 #include <limits>
+#include <system_error>
 
 #include "tools/input/back_project.hpp"
 #include "tools/io/folder_name.hpp"
@@ -21,8 +23,14 @@ bool is_png(const std::string& path) {
   return file.read(begin.data(), begin.size()) && begin == signature;
 }
 
-/// Where a color image follows a depth image; npos in the name of a file.
-std::size_t comma_in(const std::string& input) { return is_file(input) ? std::string::npos : input.find(','); }
+/// Where a color image follows a depth image, whose name may have commas, too; npos in the name of a file.
+std::size_t comma_in(const std::string& input) {
+  const std::size_t first = is_file(input) ? std::string::npos : input.find(',');
+  for (std::size_t comma = first; comma != std::string::npos; comma = input.find(',', comma + 1)) {
+    if (is_file(input.substr(0, comma))) return comma;
+  }
+  return first;
+}
 
 RgbdCloud read_images(const std::string& input, std::size_t comma, const InputOptions& options) {
   const std::string depth = input.substr(0, comma);
@@ -40,6 +48,17 @@ RgbdCloud read_images(const std::string& input, std::size_t comma, const InputOp
 }  // namespace
 
 std::string name_of_input(const std::string& input) { return folder_name(input.substr(0, comma_in(input))); }
+
+void keep_input(const std::string& input, const std::string& output) {
+  const std::size_t comma = comma_in(input);
+  const std::string color = comma == std::string::npos ? input : input.substr(comma + 1);
+  for (const std::string& file : {input.substr(0, comma), color}) {
+    std::error_code not_there;
+    if (std::filesystem::equivalent(file, output, not_there)) {
+      throw InputError::about(output, "writing this file would destroy what is read");
+    }
+  }
+}
 
 RgbdCloud read_input(const std::string& input, const InputOptions& options) {
   const std::size_t comma = comma_in(input);

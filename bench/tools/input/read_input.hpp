@@ -21,4 +21,7 @@ RgbdCloud read_input(const std::string& input, const InputOptions& options);
 /// What a picture calls it: the name of the cloud's or the depth image's file, without its folder.
 std::string name_of_input(const std::string& input);
 
+/// Throws InputError if `output`, a file that is to be written, is one that is read.
+void keep_input(const std::string& input, const std::string& output);
+
 }  // namespace shortshot_bench

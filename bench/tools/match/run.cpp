@@ -51,6 +51,11 @@ void print_cloud(char letter, const NamedCloud& named) {
 }  // namespace
 
 bool run_match(const MatchCommand& command) {
+  for (const std::string& input : command.clouds) {
+    for (const char* end : {".png", "-moved.png", "-pose.txt"}) {
+      if (!command.quiet) keep_input(input, command.out + end);
+    }
+  }
   const bool is_generated = command.clouds.empty();
   TabletopOptions other_view;
   other_view.turn = 0.25;

@@ -102,6 +102,7 @@ void run_learn(const RecognizeCommand& command) {
 bool run_recognize(const RecognizeCommand& command) {
   const shortshot::Recognizer recognizer = load_model(command.model);
   const std::string& file = command.clouds.front();
+  if (!command.quiet) keep_input(file, command.out);
   const RgbdCloud cloud = read_input(file, command.input);
   shortshot::Features<ObjectDescriptor> features;
   std::vector<Recognized> all;

@@ -10,6 +10,8 @@
 #include "tools/input/pinhole_camera.hpp"
 #include "tools/input/read_input.hpp"
 #include "tools/match/match.hpp"
+#include "tools/match/options.hpp"
+#include "tools/match/run.hpp"
 #include "tools/scene/tabletop.hpp"
 
 namespace test_depth_images {
@@ -95,6 +97,24 @@ TEST_CASE("images and cameras that cannot be used are named") {
         "SET/none.png: expected a color image, found no file of this name");
   CHECK(error_of(folder, folder.path("none.png") + "," + d, good) ==
         "SET/none.png: expected a depth image, found no file of this name");
+}
+
+TEST_CASE("no tool writes over what it reads") {
+  const Folder folder;
+  folder.add("d,1.png", depth_png({1000, 0, 65535, 3000, 500, 2000}, 3));
+  folder.add("c.png", png(std::string(18, '\x07'), 3, 2, 8, PngColor::rgb));
+  const std::string both = folder.path("d,1.png") + "," + folder.path("c.png");
+  CHECK(read_input(both, camera_of("2,4,1,0.5")).has_colors());
+  for (const char* name : {"d,1.png", "c.png"}) {
+    CHECK(error_in(folder, [&] { keep_input(both, folder.path(name)); }) ==
+          std::string("SET/") + name + ": writing this file would destroy what is read");
+  }
+  CHECK(error_in(folder, [&] { keep_input(both, folder.path("new.png")); }) == "no error");
+  MatchCommand command;
+  command.clouds = {both, both};
+  command.input = camera_of("2,4,1,0.5");
+  command.out = folder.path("c");
+  CHECK(error_in(folder, [&] { run_match(command); }) == "SET/c.png: writing this file would destroy what is read");
 }
 
 TEST_CASE("a view of a scene is found in another one, both given as images") {
