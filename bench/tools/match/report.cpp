@@ -8,6 +8,9 @@
 namespace shortshot_bench {
 namespace {
 
+/// Of B on A: where that was all, poses were found that some edge determines, and nothing beside it.
+constexpr float little = 0.25f;
+
 double number(float v) { return static_cast<double>(v); }
 
 void print_pose(const MatchResult& result) {
@@ -49,6 +52,7 @@ void print_report(const MatchResult& result, double milliseconds) {
                 100.0 * number(result.fit.share), number(result.fit.deviation));
     std::printf("  pose                B is turned by %.1f degrees; A = pose * B:\n%s", degrees_of(result.pose),
                 pose_text(result.pose).c_str());
+    if (result.fit.share < little) std::printf("note: little of B lies on A; look at both before you trust the pose\n");
   }
   std::printf("%s\n", verdict_of(result).c_str());
 }
