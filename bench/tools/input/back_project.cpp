@@ -21,9 +21,10 @@ RgbdCloud back_project(const DepthImage& depth, const PinholeCamera& camera, dou
   cloud.width = depth.width;
   cloud.height = depth.height;
   cloud.xyz.assign(3 * depth.counts.size(), std::numeric_limits<float>::quiet_NaN());
+  const double counts_in_a_meter = 1.0 / unit;  // divided by, millimeters become the nearest double
   for (std::size_t i = 0; i < depth.counts.size(); ++i) {
     const std::uint16_t raw = depth.counts[i];
-    const double z = raw * unit;
+    const double z = raw / counts_in_a_meter;
     if (raw == 0 || raw == 65535 || z > max_depth) continue;
     cloud.xyz[3 * i] =
         static_cast<float>((static_cast<double>(i % depth.width) - camera.center_x) * z / camera.focal_x);
