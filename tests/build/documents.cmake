@@ -31,7 +31,7 @@ build_test(readme.firmware.links "${CMAKE_CXX_COMPILER}" -std=c++17 "${here}/fir
   -no-pie -o "${there}/readme/firmware")
 build_test(readme.firmware.runs "${there}/readme/firmware")
 # As for ROS, with a stand-in for its message; and a pose between two of them.
-build_test(readme.robotics "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" "-I${here}/ros" -O2
+build_test(readme.robotics "${CMAKE_CXX_COMPILER}" -std=c++17 ${SHORTSHOT_WARNINGS} "${single_header_flag}" "-I${here}/ros" "-I${PROJECT_SOURCE_DIR}/tests/unit" -O2
   "${there}/readme/ros2.cpp" "${there}/readme/robotics.cpp" "${here}/robotics_main.cpp" -o "${there}/readme/robotics")
 build_test(readme.robotics.runs "${there}/readme/robotics")
 depends(readme.robotics readme)

@@ -16,11 +16,10 @@ namespace {
 sensor_msgs::msg::PointCloud2 sheet(bool is_turned) {
   sensor_msgs::msg::PointCloud2 message;
   constexpr std::uint32_t side = 200;
-  message.height = 1;
   message.width = side * side;
   message.point_step = 16;
   message.row_step = message.width * message.point_step;
-  message.fields = {{"x", 0, 7, 1}, {"y", 4, 7, 1}, {"z", 8, 7, 1}, {"rgb", 12, 7, 1}};
+  message.fields = unit::floats_xyz_and({{"rgb", 12, unit::float32, 1}});
   message.data.resize(message.row_step);
   for (std::uint32_t i = 0; i < message.width; ++i) {
     const float x = 0.002f * static_cast<float>(i % side);

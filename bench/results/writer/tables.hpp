@@ -2,6 +2,7 @@
 // Markdown; all throw std::runtime_error, which names the file, for what is missing or malformed.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,12 @@ using scaling::JsonRow;
 /// ./run peers on its first cloud, plain -O2; ours, PCL's and, where it was measured, Open3D's.
 std::string headline(const std::string& peers_path, const std::vector<JsonRow>& peers,
                      const std::vector<JsonRow>& registration, const Machine& machine);
+
+/// What tells comparisons apart, but for the build: cloud, descriptor, peer, search.
+using ComparisonKey = std::array<std::string, 4>;
+
+/// The comparison of that build, or null.
+const JsonRow* find_comparison(const std::vector<JsonRow>& peers, const ComparisonKey& key, const char* build);
 
 /// "NAME: 170909 points, 1000 key points of voxels of 0.01 m, R = 0.04 m, 831 neighbors per key point".
 std::string cloud_line(const JsonRow& row);

@@ -83,16 +83,6 @@ Quality quality_of(const std::vector<JsonRow>& registration, const std::string& 
   return quality;
 }
 
-const JsonRow* cost_of(const std::vector<JsonRow>& peers, const Shown& line) {
-  for (const JsonRow& row : peers) {
-    if (row.text("cloud") == peers.front().text("cloud") && row.text("descriptor") == line.descriptor &&
-        row.text("peer") == line.peer && row.text("build") == "O2" && row.text("search") == "grid") {
-      return &row;
-    }
-  }
-  return nullptr;
-}
-
 std::string hundredths(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2f", value);
@@ -107,7 +97,8 @@ std::string headline(const std::string& peers_path, const std::vector<JsonRow>& 
                "whole frame, ms", "extra memory"});
   std::size_t sets = 0;
   for (const Shown& line : shown) {
-    const JsonRow* const cost = cost_of(peers, line);
+    const JsonRow* const cost =
+        find_comparison(peers, {peers.front().text("cloud"), line.descriptor, line.peer, "grid"}, "O2");
     if (cost == nullptr && !line.everywhere) continue;
     if (cost == nullptr) {
       throw std::runtime_error(peers_path + ": no comparison of " + line.descriptor + " with " + line.peer + " for O2");

@@ -15,20 +15,12 @@ struct Pair {
   const JsonRow* avx2 = nullptr;
 };
 
-using Key = std::array<std::string, 4>;
 constexpr std::array<const char*, 4> key_names{"cloud", "descriptor", "peer", "search"};
 
-Key key_of(const JsonRow& row) {
-  Key key;
+ComparisonKey key_of(const JsonRow& row) {
+  ComparisonKey key;
   for (std::size_t i = 0; i < key.size(); ++i) key[i] = row.text(key_names[i]);
   return key;
-}
-
-/// The row of that build, or null.
-const JsonRow* find(const std::vector<JsonRow>& rows, const Key& key, const char* build) {
-  const auto found = std::find_if(rows.begin(), rows.end(),
-                                  [&](const JsonRow& row) { return key_of(row) == key && row.text("build") == build; });
-  return found == rows.end() ? nullptr : &*found;
 }
 
 /// A value of both builds: "14.1 / 8.3".
@@ -57,14 +49,14 @@ std::vector<std::string> cells(const Pair& pair, std::vector<std::string> first)
 
 std::string peers_of_cloud(const std::vector<JsonRow>& peers, const std::string& cloud) {
   Table table(columns);
-  std::vector<Key> seen;
+  std::vector<ComparisonKey> seen;
   std::string text;
   for (const JsonRow& row : peers) {
-    const Key key = key_of(row);
+    const ComparisonKey key = key_of(row);
     if (key[0] != cloud || std::find(seen.begin(), seen.end(), key) != seen.end()) continue;
     if (seen.empty()) text = cloud_line(row) + ".\n\n";
     seen.push_back(key);
-    const Pair pair{find(peers, key, "O2"), find(peers, key, "avx2")};
+    const Pair pair{find_comparison(peers, key, "O2"), find_comparison(peers, key, "avx2")};
     if (!pair.o2 && !pair.avx2) row.fail("'build' must be \"O2\" or \"avx2\", not \"" + row.text("build") + "\"");
     table.add(cells(pair, {key[1], key[2], key[3]}));
   }
@@ -72,6 +64,12 @@ std::string peers_of_cloud(const std::vector<JsonRow>& peers, const std::string&
 }
 
 }  // namespace
+
+const JsonRow* find_comparison(const std::vector<JsonRow>& peers, const ComparisonKey& key, const char* build) {
+  const auto found = std::find_if(peers.begin(), peers.end(),
+                                  [&](const JsonRow& row) { return key_of(row) == key && row.text("build") == build; });
+  return found == peers.end() ? nullptr : &*found;
+}
 
 std::string cloud_line(const JsonRow& row) {
   char lengths[64];

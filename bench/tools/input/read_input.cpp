@@ -1,6 +1,7 @@
 #include "tools/input/read_input.hpp"
 
 #include <array>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -46,6 +47,10 @@ RgbdCloud read_images(const std::string& input, std::size_t comma, const InputOp
 }
 
 }  // namespace
+
+void print_notes(const RgbdCloud& cloud) {
+  for (const std::string& note : cloud.notes) std::printf("note: %s\n", note.c_str());
+}
 
 std::string name_of_input(const std::string& input) { return folder_name(input.substr(0, comma_in(input))); }
 

@@ -18,6 +18,9 @@ struct InputOptions {
 /// InputError, also for a depth image without intrinsics.
 RgbdCloud read_input(const std::string& input, const InputOptions& options);
 
+/// A line for each note of the cloud, on stdout.
+void print_notes(const RgbdCloud& cloud);
+
 /// What a picture calls it: the name of the cloud's or the depth image's file, without its folder.
 std::string name_of_input(const std::string& input);
 

@@ -6,12 +6,13 @@
 #include "shortshot/cloud/read.hpp"
 
 namespace shortshot_bench {
-namespace {
-
-/// Of the points that are finite.
-struct Extent {
-  float low[3], high[3];
-};
+shortshot::CloudView view_of_cloud(const RgbdCloud& cloud) {
+  shortshot::CloudView view = cloud.has_colors()
+                                  ? shortshot::view_xyz_rgb(cloud.xyz.data(), cloud.rgb.data(), cloud.size())
+                                  : shortshot::view_xyz(cloud.xyz.data(), cloud.size());
+  if (cloud.has_intensities()) view = shortshot::with_intensities(view, cloud.intensity.data());
+  return shortshot::organized(view, cloud.width, cloud.height);
+}
 
 Extent extent_of(const RgbdCloud& cloud) {
   constexpr float most = std::numeric_limits<float>::max();
@@ -25,16 +26,6 @@ Extent extent_of(const RgbdCloud& cloud) {
     }
   }
   return extent;
-}
-
-}  // namespace
-
-shortshot::CloudView view_of_cloud(const RgbdCloud& cloud) {
-  shortshot::CloudView view = cloud.has_colors()
-                                  ? shortshot::view_xyz_rgb(cloud.xyz.data(), cloud.rgb.data(), cloud.size())
-                                  : shortshot::view_xyz(cloud.xyz.data(), cloud.size());
-  if (cloud.has_intensities()) view = shortshot::with_intensities(view, cloud.intensity.data());
-  return shortshot::organized(view, cloud.width, cloud.height);
 }
 
 shortshot::Viewpoint camera_of_cloud(const RgbdCloud& cloud) {

@@ -9,6 +9,14 @@
 
 namespace shortshot_bench {
 
+/// The box around a cloud; low is above high if no point is finite.
+struct Extent {
+  float low[3], high[3];
+};
+
+/// Of the points that are finite.
+Extent extent_of(const RgbdCloud& cloud);
+
 /// Borrows the cloud, whose rows and columns it keeps.
 shortshot::CloudView view_of_cloud(const RgbdCloud& cloud);
 

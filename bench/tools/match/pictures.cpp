@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <limits>
 #include <vector>
 
+#include "tools/io/view_of_cloud.hpp"
 #include "tools/picture/marks.hpp"
 #include "tools/picture/panel.hpp"
 #include "tools/picture/viewing.hpp"
@@ -69,19 +69,13 @@ void draw_pair(Canvas& canvas, const Panel& of_a, const Panel& of_b, const Match
 
 /// The points of a cloud in the box around another, which is a little larger than that.
 RgbdCloud part_around(const RgbdCloud& cloud, const RgbdCloud& other) {
-  constexpr float infinite = std::numeric_limits<float>::infinity();
-  float low[3] = {infinite, infinite, infinite};
-  float high[3] = {-infinite, -infinite, -infinite};
-  for (std::size_t i = 0; i < other.xyz.size(); ++i) {  // a NaN is never smaller nor larger
-    low[i % 3] = std::min(low[i % 3], other.xyz[i]);
-    high[i % 3] = std::max(high[i % 3], other.xyz[i]);
-  }
+  const Extent extent = extent_of(other);
   RgbdCloud part;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const float* const p = cloud.xyz.data() + 3 * i;
     const auto is_near = [&](std::size_t axis) {
-      const float margin = 0.05f * (high[axis] - low[axis]);
-      return p[axis] > low[axis] - margin && p[axis] < high[axis] + margin;
+      const float margin = 0.05f * (extent.high[axis] - extent.low[axis]);
+      return p[axis] > extent.low[axis] - margin && p[axis] < extent.high[axis] + margin;
     };
     if (!is_near(0) || !is_near(1) || !is_near(2)) continue;
     part.xyz.insert(part.xyz.end(), p, p + 3);

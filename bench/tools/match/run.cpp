@@ -16,11 +16,24 @@
 namespace shortshot_bench {
 namespace {
 
+struct OutputFiles {
+  std::string picture, moved_picture, pose;
+};
+
+OutputFiles outputs_of(const MatchCommand& command) {
+  return {command.out + ".png", command.out + "-moved.png", command.out + "-pose.txt"};
+}
+
+void keep_inputs(const MatchCommand& command) {
+  const auto [picture, moved_picture, pose] = outputs_of(command);
+  for (const std::string& input : command.clouds) {
+    for (const std::string& output : {picture, moved_picture, pose}) keep_input(input, output);
+  }
+}
+
 /// What was not found leaves no pose, also none of an earlier run.
 void write_files(const MatchCommand& command, const NamedCloud& a, const NamedCloud& b, const MatchResult& result) {
-  const std::string picture = command.out + ".png";
-  const std::string moved_picture = command.out + "-moved.png";
-  const std::string pose = command.out + "-pose.txt";
+  const auto [picture, moved_picture, pose] = outputs_of(command);
   draw_matches(a, b, result, command.width).write_png(picture);
   std::printf("written: %s\n", picture.c_str());
   if (!result.is_found) {
@@ -42,7 +55,7 @@ RgbdCloud read_side(const MatchCommand& command, std::size_t side) {
 void print_cloud(char letter, const NamedCloud& named) {
   const RgbdCloud& cloud = named.cloud;
   std::printf("%c: %s, %zu points\n", letter, named.name.c_str(), cloud.size());
-  for (const std::string& note : cloud.notes) std::printf("note: %s\n", note.c_str());
+  print_notes(cloud);
   if (cloud.is_whole || !surrounds_its_viewpoint(cloud)) return;
   std::printf("note: %c lies around its viewpoint: if it shows an object from all sides, say so with --whole\n",
               letter);
@@ -51,11 +64,7 @@ void print_cloud(char letter, const NamedCloud& named) {
 }  // namespace
 
 bool run_match(const MatchCommand& command) {
-  for (const std::string& input : command.clouds) {
-    for (const char* end : {".png", "-moved.png", "-pose.txt"}) {
-      if (!command.quiet) keep_input(input, command.out + end);
-    }
-  }
+  if (!command.quiet) keep_inputs(command);
   const bool is_generated = command.clouds.empty();
   TabletopOptions other_view;
   other_view.turn = 0.25;

@@ -38,10 +38,6 @@ void about(const std::string& file, const Work& work) {
   }
 }
 
-void print_notes(const RgbdCloud& cloud) {
-  for (const std::string& note : cloud.notes) std::printf("note: %s\n", note.c_str());
-}
-
 void print(const shortshot::Recognizer& recognizer, const std::vector<Recognized>& all, std::size_t keypoints) {
   for (const Recognized& r : all) {
     const shortshot::Hypothesis& h = r.hypothesis;

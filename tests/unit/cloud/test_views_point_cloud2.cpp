@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fixtures.hpp"
+#include "point_cloud2_message.hpp"
 
 namespace test_views_point_cloud2 {
 namespace {
@@ -15,41 +16,25 @@ namespace {
 using namespace unit;
 using ss::Status;
 
-constexpr std::uint8_t type_uint8 = 2, type_uint16 = 4, type_uint32 = 6, type_float32 = 7, type_float64 = 8;
-
-struct Field {
-  std::string name;
-  std::uint32_t offset;
-  std::uint8_t datatype;
-  std::uint32_t count;
-};
-
-struct Message {
-  std::uint32_t height = 1;
-  std::uint32_t width = 0;
-  std::vector<Field> fields;
-  bool is_bigendian = false;
-  std::uint32_t point_step = 0;
-  std::uint32_t row_step = 0;
-  std::vector<std::uint8_t> data;
-};
+using Message = CloudMessage;
+using Field = CloudMessage::Field;
 
 constexpr std::uint32_t count = 60;
 
 TestCloud sample() { return curved_surface(1, count); }
 
 /// The sample with its fields at odd places: most floats are not aligned.
-Message message(const std::string& color = "rgb", std::uint8_t color_type = type_float32) {
+Message message(const std::string& color = "rgb", std::uint8_t color_type = float32) {
   const TestCloud cloud = sample();
   Message m;
   m.width = count;
   m.point_step = 23;
   m.row_step = m.width * m.point_step;
-  m.fields = {{"intensity", 0, type_uint8, 1},
-              {"y", 1, type_float32, 1},
-              {"x", 7, type_float32, 1},
+  m.fields = {{"intensity", 0, uint8, 1},
+              {"y", 1, float32, 1},
+              {"x", 7, float32, 1},
               {color, 12, color_type, 1},
-              {"z", 19, type_float32, 1}};
+              {"z", 19, float32, 1}};
   m.data.assign(m.row_step, 0xEE);
   for (std::size_t i = 0; i < count; ++i) {
     std::uint8_t* at = m.data.data() + i * m.point_step;
@@ -96,8 +81,8 @@ void check_reads_as_sample(const Message& m, bool colors = true, Status status =
 
 TEST_CASE("PointCloud2: unaligned fields in any order, colors packed into a float or an integer") {
   check_reads_as_sample(message());
-  check_reads_as_sample(message("rgba", type_uint32));
-  check_reads_as_sample(message("rgb", type_uint32));
+  check_reads_as_sample(message("rgba", uint32));
+  check_reads_as_sample(message("rgb", uint32));
 }
 
 TEST_CASE("PointCloud2: an image keeps its width and height") {
@@ -110,7 +95,7 @@ TEST_CASE("PointCloud2: an image keeps its width and height") {
 
 TEST_CASE("PointCloud2: a cloud without colors, or with colors of another type, has points only") {
   check_reads_as_sample(message("temperature"), false);
-  Message m = message("rgb", type_uint8);
+  Message m = message("rgb", uint8);
   check_reads_as_sample(m, false, Status::unread_channel);
   CHECK(ss::point_cloud2_channels(m).colors == Status::unread_channel);
 }
@@ -118,7 +103,7 @@ TEST_CASE("PointCloud2: a cloud without colors, or with colors of another type, 
 TEST_CASE("PointCloud2: coordinates of another type, missing ones and fields outside the point are refused") {
   for (const std::size_t field : {1u, 2u, 4u}) {
     Message m = message();
-    m.fields[field].datatype = type_uint32;
+    m.fields[field].datatype = uint32;
     CHECK(view_of(m) == Status::needs_conversion);
     m.fields[field].datatype = 9;
     CHECK(view_of(m) == Status::bad_field);
@@ -142,15 +127,14 @@ TEST_CASE("PointCloud2: a message whose colors lie outside the point is refused"
   m.fields[3].offset = 20;
   CHECK(view_of(m) == Status::field_outside);
   CHECK(ss::point_cloud2_channels(m).colors == Status::field_outside);
-  m.fields.push_back({"rgba", 12, type_float32, 1});
+  m.fields.push_back({"rgba", 12, float32, 1});
   CHECK(view_of(m) == Status::field_outside);
 }
 
 TEST_CASE("PointCloud2: normals are three fields of their own, or none") {
   Message m = message();
-  m.fields.insert(
-      m.fields.end(),
-      {{"normal_x", 1, type_float32, 1}, {"normal_z", 7, type_float32, 1}, {"normal_y", 19, type_float32, 1}});
+  m.fields.insert(m.fields.end(),
+                  {{"normal_x", 1, float32, 1}, {"normal_z", 7, float32, 1}, {"normal_y", 19, float32, 1}});
   ss::CloudView view{};
   REQUIRE(ss::view_point_cloud2(m, view) == Status::ok);
   REQUIRE(ss::has_normals(view));
@@ -162,13 +146,13 @@ TEST_CASE("PointCloud2: normals are three fields of their own, or none") {
   check_reads_as_sample(m);
   for (const std::size_t field : {5u, 6u, 7u}) {
     Message other = m;
-    for (const Field& broken : {Field{"normal", 1, type_float32, 1}, Field{m.fields[field].name, 1, type_float64, 1},
-                                Field{m.fields[field].name, 1, type_float32, 2}}) {
+    for (const Field& broken : {Field{"normal", 1, float32, 1}, Field{m.fields[field].name, 1, float64, 1},
+                                Field{m.fields[field].name, 1, float32, 2}}) {
       other.fields[field] = broken;
       REQUIRE(ss::view_point_cloud2(other, view) == Status::unread_channel);
       CHECK_FALSE(ss::has_normals(view));
     }
-    other.fields[field] = {m.fields[field].name, 20, type_float32, 1};
+    other.fields[field] = {m.fields[field].name, 20, float32, 1};
     CHECK(view_of(other) == Status::field_outside);
   }
 }
@@ -192,11 +176,11 @@ TEST_CASE("PointCloud2: intensities are floats, bytes or whole numbers of 16 bit
   };
   for (std::size_t i = 0; i < count; ++i) {
     const auto word = static_cast<std::uint16_t>(1000 * i);
-    CHECK(read(type_uint8, 0, i) == static_cast<float>(4 * i % 256));
-    CHECK(read(type_uint8, 22, i) == static_cast<float>(m.data[i * m.point_step + 22]));  // the last byte of z
-    CHECK(read(type_uint16, 5, i) == static_cast<float>(word));
-    CHECK(read(type_float32, 7, i) == cloud.at(i).x);
-    CHECK(read(type_float32, 19, i) == cloud.at(i).z);
+    CHECK(read(uint8, 0, i) == static_cast<float>(4 * i % 256));
+    CHECK(read(uint8, 22, i) == static_cast<float>(m.data[i * m.point_step + 22]));  // the last byte of z
+    CHECK(read(uint16, 5, i) == static_cast<float>(word));
+    CHECK(read(float32, 7, i) == cloud.at(i).x);
+    CHECK(read(float32, 19, i) == cloud.at(i).z);
   }
 }
 
@@ -214,10 +198,10 @@ TEST_CASE("PointCloud2: a cloud without intensities, with ones of another type o
     check_reads_as_sample(m, true, status);  // the rest of the cloud is as good as ever
     return ss::has_intensities(view) ? Status::ok : ss::point_cloud2_channels(m).intensities;
   };
-  CHECK(reading({"intensity", 0, type_uint8, 1}) == Status::ok);
-  CHECK(reading({"i", 0, type_uint8, 1}) == Status::missing_intensities);
-  CHECK(reading({"reflectivity", 0, type_uint16, 1}) == Status::missing_intensities);
-  CHECK(reading({"intensity", 0, type_uint8, 2}) == Status::unread_channel);
+  CHECK(reading({"intensity", 0, uint8, 1}) == Status::ok);
+  CHECK(reading({"i", 0, uint8, 1}) == Status::missing_intensities);
+  CHECK(reading({"reflectivity", 0, uint16, 1}) == Status::missing_intensities);
+  CHECK(reading({"intensity", 0, uint8, 2}) == Status::unread_channel);
   for (const int type : {0, 9, 255}) {
     CHECK(reading({"intensity", 0, static_cast<std::uint8_t>(type), 1}) == Status::unread_channel);
   }
@@ -226,9 +210,9 @@ TEST_CASE("PointCloud2: a cloud without intensities, with ones of another type o
   }
   for (const std::uint32_t beyond : {1u, 2u, 4u, 0xFFFFFFFFu - 22u}) {
     CAPTURE(beyond);
-    CHECK(reading({"intensity", 22u + beyond, type_uint8, 1}) == Status::field_outside);
-    CHECK(reading({"intensity", 21u + beyond, type_uint16, 1}) == Status::field_outside);
-    CHECK(reading({"intensity", 19u + beyond, type_float32, 1}) == Status::field_outside);
+    CHECK(reading({"intensity", 22u + beyond, uint8, 1}) == Status::field_outside);
+    CHECK(reading({"intensity", 21u + beyond, uint16, 1}) == Status::field_outside);
+    CHECK(reading({"intensity", 19u + beyond, float32, 1}) == Status::field_outside);
   }
 }
 
